@@ -1,0 +1,2 @@
+//! Ray tracing in kibibytes.
+#![no_std]

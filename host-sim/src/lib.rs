@@ -1,0 +1,3 @@
+//! The desktop simulator of kibiray.
+
+pub mod description;

@@ -1,0 +1,2 @@
+//! The command `host-sim`.
+fn main() {}
