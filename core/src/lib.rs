@@ -1,2 +1,6 @@
 //! Ray tracing in kibibytes.
 #![no_std]
+
+pub mod geom;
+pub mod num;
+pub mod shape;

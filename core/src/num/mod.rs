@@ -1,0 +1,142 @@
+//! The number types: everything outside this folder computes in some [`Real`] and names no float.
+//!
+//! A number type is a **type parameter**, so that one program can run two of them side by side and
+//! compare. Three kinds of quantity are told apart, because a fixed-point type holds them in
+//! different formats:
+//! * `R: Real`: a coordinate, a length, a ray parameter, a direction component, a colour component;
+//! * [`Real::Wide`]: a sum of products of two `R` (dot products, squared lengths, edge functions,
+//!   discriminants). For floats it is the float itself; a 32-bit fixed-point type makes it 64 bits,
+//!   so that signs of such sums are exact;
+//! * [`Real::Vec3`]: three `R` (glam's for floats).
+//!
+//! # What keeps the bits equal on every target
+//! Only `+ - * /`, comparisons, conversions and the correctly rounded square root touch a number on
+//! the way of a ray. Rust neither fuses nor reorders them. Minimum and maximum are written as
+//! comparisons, because the IEEE operations leave the sign of a zero open. `tan` and `powf` come
+//! from `libm`, which is the same code everywhere.
+
+mod float;
+mod sqrt;
+mod vector;
+
+pub use vector::{Axis, Vector};
+
+use bytemuck::Pod;
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Three numbers of type `R`: a point, a direction or a colour.
+pub type Vec3<R> = <R as Real>::Vec3;
+
+/// Sums of products of two numbers; see [`Real::Wide`].
+pub trait Wide:
+    Copy + Debug + Default + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self>
+{
+}
+
+impl<T> Wide for T where
+    T: Copy + Debug + Default + PartialOrd + Add<Output = T> + Sub<Output = T> + Neg<Output = T>
+{
+}
+
+/// A number that rays are traced in.
+///
+/// Comparisons with a value that is not a number are false, and every test of the core is written
+/// so that *false* means *no hit*.
+pub trait Real:
+    Pod
+    + Debug
+    + Default
+    + PartialOrd
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Sums of products of two numbers.
+    type Wide: Wide;
+    /// Three numbers.
+    type Vec3: Vector<Self>;
+
+    /// 0.
+    const ZERO: Self;
+    /// 1.
+    const ONE: Self;
+    /// 1/2.
+    const HALF: Self;
+    /// The distance from 1 to the next greater number.
+    const EPSILON: Self;
+    /// The greatest number that is a distance.
+    const MAX: Self;
+    /// Beyond every distance: the far end of a ray that has none.
+    const INFINITY: Self;
+
+    /// The nearest number of this type.
+    fn from_f64(x: f64) -> Self;
+    /// The value as `f64`, exact for all types up to 64 bits of float and 32 of fixed point.
+    fn to_f64(self) -> f64;
+    /// A small whole number, exact up to 2^24.
+    fn from_i32(i: i32) -> Self;
+    /// Rounds towards 0; out of range gives the nearest end, not-a-number gives 0.
+    fn to_i32(self) -> i32;
+    /// Neither infinite nor not-a-number.
+    fn is_finite(self) -> bool;
+    /// The square root, correctly rounded; of a negative number: not-a-number, or 0 where the
+    /// type has none.
+    fn sqrt(self) -> Self;
+    /// The tangent of an angle in radians; for setting up cameras.
+    fn tan(self) -> Self;
+    /// `self` to the power `exponent`, for `self` in 0 to 1 (highlights).
+    fn powf(self, exponent: Self) -> Self;
+    /// The next greater number.
+    fn next_up(self) -> Self;
+    /// The next smaller number.
+    fn next_down(self) -> Self;
+    /// The power of two that brings `self > 0` into [1, 2) when multiplied with it; both the
+    /// factor and its inverse, exact.
+    fn scale_to_one(self) -> (Self, Self);
+
+    /// The product of two numbers, in full.
+    fn times(self, rhs: Self) -> Self::Wide;
+    /// Rounds a sum of products back to a number.
+    fn narrow(w: Self::Wide) -> Self;
+    /// The square root of a sum of products.
+    fn sqrt_wide(w: Self::Wide) -> Self;
+    /// The ratio of two sums of products.
+    fn ratio(numerator: Self::Wide, denominator: Self::Wide) -> Self;
+    /// `(w[0] z[0] + w[1] z[1] + w[2] z[2]) / (w[0] + w[1] + w[2])`; the sum is not 0.
+    fn mean(weights: [Self::Wide; 3], z: [Self; 3]) -> Self;
+    /// √(b² − a c), or `None` where that is negative: the root in both solutions of
+    /// a t² − 2 b t + c = 0. Without cancellation between the two products.
+    fn root(a: Self::Wide, b: Self::Wide, c: Self::Wide) -> Option<Self::Wide>;
+
+    /// The absolute value.
+    fn abs(self) -> Self {
+        if self < Self::ZERO { -self } else { self }
+    }
+    /// The smaller one; `self` when they are equal, `other` when either is not a number.
+    fn min(self, other: Self) -> Self {
+        if self <= other { self } else { other }
+    }
+    /// The greater one; `self` when they are equal, `other` when either is not a number.
+    fn max(self, other: Self) -> Self {
+        if self >= other { self } else { other }
+    }
+    /// `self` brought into `lo..=hi`; `lo` when it is not a number.
+    fn clamp(self, lo: Self, hi: Self) -> Self {
+        if self > hi {
+            hi
+        } else if self >= lo {
+            self
+        } else {
+            lo
+        }
+    }
+    /// Whole number of units, for bounds that are powers of two of [`Real::EPSILON`].
+    fn ulps(n: i32) -> Self {
+        Self::EPSILON * Self::from_i32(n)
+    }
+}

@@ -1,0 +1,113 @@
+//! Elementary solids, one a file, for any number type.
+//!
+//! # The contract of a shape
+//! * [`Shape::hit`] gives the smallest parameter `t` with `min < t <= max` at which the ray meets
+//!   the surface, from either side. `t` depends on the ray and the shape only; the interval selects
+//!   among the crossings and never moves one.
+//! * The point at `t` lies in [`Shape::bounds`], or outside it by no more than [`Ray::slack`]. Space
+//!   is divided by padded boxes, so a structure that follows the ray from cell to cell cannot lose
+//!   what testing every shape would find. Where a kernel cannot promise this by itself (a triangle
+//!   seen edge-on has no well-defined `t`), it ends in [`settle`].
+//! * A shape that passed [`Shape::check`] is never hit at a `t` that is not a number.
+
+mod sphere;
+mod triangle;
+
+pub use sphere::{Length, Sphere};
+pub use triangle::{Shear, Triangle};
+
+use crate::geom::{Aabb, Ray, Slopes};
+use crate::num::{Real, Vec3};
+
+#[cfg(test)]
+pub(crate) mod testing;
+
+/// Why a shape cannot be part of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ShapeError {
+    /// A coordinate or a radius is infinite or not a number, or so great that products of it are.
+    NotFinite,
+    /// It has no surface: a radius or a length of zero, coinciding or collinear corners.
+    Degenerate,
+    /// A radius or an extent is negative.
+    Negative,
+    /// A polygon has fewer than three corners.
+    TooFewCorners,
+}
+
+impl core::fmt::Display for ShapeError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::NotFinite => "a coordinate or radius is not finite, or too great to compute with",
+            Self::Degenerate => "it has no surface: a radius, length or area is zero",
+            Self::Negative => "a radius or an extent is negative",
+            Self::TooFewCorners => "a polygon needs at least three corners",
+        })
+    }
+}
+
+impl core::error::Error for ShapeError {}
+
+/// An elementary solid or surface.
+pub trait Shape<R: Real> {
+    /// What every shape of this kind wants to know of a ray, computed once a ray.
+    type PerRay: Copy;
+
+    /// Whether the shape has an extent that a box can hold. The same for all shapes of a kind.
+    const BOUNDED: bool = true;
+
+    /// Prepares a ray.
+    fn per_ray(ray: &Ray<R>) -> Self::PerRay;
+
+    /// Refuses shapes that have no surface or whose numbers would not stay finite.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    fn check(&self) -> Result<(), ShapeError>;
+
+    /// The smallest axis-aligned box around it, rounded outwards.
+    fn bounds(&self) -> Aabb<R>;
+
+    /// The nearest crossing with `min < t <= max`.
+    fn hit(&self, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> Option<R>;
+
+    /// Whether there is any crossing with `min < t <= max`: what [`Shape::hit`] finds, or sooner.
+    fn occludes(&self, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> bool {
+        self.hit(ray, per_ray, min, max).is_some()
+    }
+
+    /// The geometric normal at a hit, pointing out of the solid (for a surface: to its front), not
+    /// necessarily of length 1.
+    fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R>;
+
+    /// The normal that shading uses; differs where vertex normals are given.
+    fn shading_normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
+        self.normal(ray, t)
+    }
+}
+
+/// Holds a hit to the promise that it lies in the shape's box.
+///
+/// Gives `t` back when it does; otherwise the nearest parameter at which the ray is inside the box
+/// grown by the ray's slack; nothing when it never is, or when `t` is infinite or not a number.
+pub(crate) fn settle<R: Real>(ray: &Ray<R>, bounds: Aabb<R>, t: R) -> Option<R> {
+    let bounds = bounds.grown(ray.slack());
+    if bounds.contains(ray.at(t)) { Some(t) } else { move_into(ray, bounds, t) }
+}
+
+#[cold]
+fn move_into<R: Real>(ray: &Ray<R>, bounds: Aabb<R>, t: R) -> Option<R> {
+    if !t.is_finite() {
+        return None;
+    }
+    let (enter, leave) = Slopes::of(ray).clip(bounds.lo, bounds.hi, -R::MAX, R::MAX)?;
+    Some(t.clamp(enter, leave))
+}
+
+/// Whether coordinates up to `reach` can be computed with: tests of shapes form products of three
+/// lengths, each up to the distance from which rays are shot.
+pub(crate) fn workable<R: Real>(reach: R) -> bool {
+    let reach = reach * R::from_i32(16);
+    (reach * reach * reach).is_finite()
+}

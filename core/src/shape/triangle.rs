@@ -1,0 +1,212 @@
+//! The triangle, watertight.
+//!
+//! S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2(1) (2013): the ray
+//! is sheared onto an axis, so that the test becomes one of the origin against three edges in the
+//! plane. A shared edge gives both its triangles the same number with opposite sign, and 0 counts
+//! as inside: a ray cannot pass between them. The original computes again in double precision where
+//! an edge function is 0; that serves to give an edge to one triangle only. Here both may claim it,
+//! and the order of shapes decides.
+
+use super::{Shape, ShapeError, settle, workable};
+use crate::geom::{Aabb, Ray};
+use crate::num::{Axis, Real, Vec3, Vector};
+
+/// A triangle; 36 bytes in `f32`. Its front is the side from which the corners run anticlockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Triangle<R: Real> {
+    /// The corners.
+    pub corners: [Vec3<R>; 3],
+}
+
+impl<R: Real> Triangle<R> {
+    /// A triangle between three points.
+    pub const fn new(a: Vec3<R>, b: Vec3<R>, c: Vec3<R>) -> Self {
+        Self { corners: [a, b, c] }
+    }
+
+    /// The weights of the corners at the place where a ray passes, of sum not 0; `None` when it
+    /// passes outside or sees the triangle edge-on.
+    fn weights(&self, ray: &Ray<R>, shear: &Shear<R>) -> Option<([R::Wide; 3], [R; 3])> {
+        let [a, b, c] = self.corners.map(|corner| shear.apply(corner - ray.origin()));
+        let u = edge::<R>(c, b);
+        let v = edge::<R>(a, c);
+        let w = edge::<R>(b, a);
+        let zero = R::Wide::default();
+        let some_negative = u < zero || v < zero || w < zero;
+        let some_positive = u > zero || v > zero || w > zero;
+        // Signs differ: outside. All zero: edge-on or not a number.
+        (some_negative != some_positive).then_some(([u, v, w], [a.2, b.2, c.2]))
+    }
+
+    /// The weights of the corners at a hit, of sum 1: barycentric coordinates.
+    pub fn barycentric(&self, ray: &Ray<R>) -> [R; 3] {
+        match self.weights(ray, &Shear::of(ray)) {
+            Some((w, _)) => [
+                R::mean(w, [R::ONE, R::ZERO, R::ZERO]),
+                R::mean(w, [R::ZERO, R::ONE, R::ZERO]),
+                R::mean(w, [R::ZERO, R::ZERO, R::ONE]),
+            ],
+            None => [R::ONE, R::ZERO, R::ZERO],
+        }
+    }
+
+}
+
+/// The shear that turns a ray into the third axis: what flat shapes want to know of a ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Shear<R: Real> {
+    axes: (Axis, Axis, Axis),
+    slope: (R, R),
+    scale: R,
+}
+
+impl<R: Real> Shear<R> {
+    /// Three divisions.
+    pub(crate) fn of(ray: &Ray<R>) -> Self {
+        let d = ray.direction();
+        let major = d.major_axis();
+        let (u, v) = major.others();
+        let along = d.along(major);
+        Self {
+            axes: (u, v, major),
+            slope: (d.along(u) / along, d.along(v) / along),
+            scale: R::ONE / along,
+        }
+    }
+
+    /// Where a point, given relative to the ray's origin, lies across and along the ray.
+    pub(crate) fn apply(&self, p: Vec3<R>) -> (R, R, R) {
+        let z = p.along(self.axes.2);
+        (
+            p.along(self.axes.0) - self.slope.0 * z,
+            p.along(self.axes.1) - self.slope.1 * z,
+            self.scale * z,
+        )
+    }
+}
+
+/// Twice the signed area of the triangle from the origin to two sheared points.
+pub(crate) fn edge<R: Real>(p: (R, R, R), q: (R, R, R)) -> R::Wide {
+    p.0.times(q.1) - p.1.times(q.0)
+}
+
+impl<R: Real> Shape<R> for Triangle<R> {
+    type PerRay = Shear<R>;
+
+    fn per_ray(ray: &Ray<R>) -> Shear<R> {
+        Shear::of(ray)
+    }
+
+    fn check(&self) -> Result<(), ShapeError> {
+        let bounds = self.bounds();
+        let reach = bounds.max_abs();
+        if !(self.corners.iter().all(|c| c.is_finite()) && workable(reach)) {
+            Err(ShapeError::NotFinite)
+        } else if is_degenerate::<R>(self.corners) {
+            Err(ShapeError::Degenerate)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn bounds(&self) -> Aabb<R> {
+        Aabb::around(self.corners)
+    }
+
+    fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
+        let (weights, depths) = self.weights(ray, shear)?;
+        let t = settle(ray, self.bounds(), R::mean(weights, depths))?;
+        (t > min && t <= max).then_some(t)
+    }
+
+    fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {
+        let [a, b, c] = self.corners;
+        (b - a).cross(c - a)
+    }
+}
+
+/// Whether three corners span no area, judged after scaling so that tiny triangles are not.
+fn is_degenerate<R: Real>([a, b, c]: [Vec3<R>; 3]) -> bool {
+    let (p, q) = (b - a, c - a);
+    let size = p.max_abs().max(q.max_abs());
+    if !(size > R::ZERO) {
+        return true;
+    }
+    let (scale, _) = size.scale_to_one();
+    (p * scale).cross(q * scale).is_zero()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::testing::{all_hits, ray};
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn published_hits() {
+        // J. Buck, The Ray Tracer Challenge (2019), chapter 15.
+        let t = Triangle::new(vec3(0.0, 1.0, 0.0), vec3(-1.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0));
+        assert_eq!(all_hits(&t, &ray([0.0, 0.5, -2.0], [0.0, 0.0, 1.0])), [2.0]);
+        for miss in [[1.0, 1.0, -2.0], [-1.0, 1.0, -2.0], [0.0, -1.0, -2.0]] {
+            assert!(all_hits(&t, &ray(miss, [0.0, 0.0, 1.0])).is_empty());
+        }
+        // Parallel to the plane, outside and inside of it.
+        assert!(all_hits(&t, &ray([0.0, -1.0, -2.0], [0.0, 1.0, 0.0])).is_empty());
+        assert!(all_hits(&t, &ray([0.0, -1.0, 0.0], [0.0, 1.0, 0.0])).is_empty());
+    }
+
+    #[test]
+    fn corners_and_edges_belong_to_it() {
+        let t = Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (0.5, 0.0), (0.0, 0.25)] {
+            assert_eq!(all_hits(&t, &ray([x, y, 1.0], [0.0, 0.0, -2.0])), [0.5]);
+        }
+    }
+
+    #[test]
+    fn the_bad_case_of_pbrt() {
+        // mmp/pbrt-v4, shapes_test.cpp, Triangle.BadCases: must not be hit before t = 0.9999.
+        let t = Triangle::new(
+            vec3(-1113.454_59, -79.049_614, -56.243_191),
+            vec3(-1113.454_59, -87.092_27, -56.243_191),
+            vec3(-1113.454_59, -79.209_015, -56.243_191),
+        );
+        let r = ray(
+            [-1081.479_25, 99.999_954_2, 87.770_111_1],
+            [-32.107_299_8, -183.355_865, -144.607_635],
+        );
+        assert_eq!(t.hit(&r, &Shear::of(&r), 0.0, 0.9999), None);
+        assert_eq!(t.check(), Err(ShapeError::Degenerate));
+    }
+
+    #[test]
+    fn a_hit_never_leaves_the_box_even_edge_on() {
+        // Rays within rounding of the plane: t is ill-defined, but has to stay where the shape is.
+        let t = Triangle::new(vec3(0.1, 0.2, 0.3), vec3(1.1, 0.3, 0.4), vec3(0.4, 1.3, 0.35));
+        let [a, b, c] = t.corners;
+        let mut hits = 0;
+        for i in 0..20_000_u16 {
+            let s = f32::from(i) / 20_000.0;
+            let to = a * (1.0 - s) + b * s * 0.7 + c * s * 0.3;
+            let from = a * 0.2 + b * 0.9 - c * (0.1 + s);
+            let r = Ray::new(from, to - from).unwrap();
+            for hit in all_hits(&t, &r) {
+                hits += 1;
+                let bounds = t.bounds().grown(2.0 * r.slack());
+                assert!(bounds.contains(r.at(hit)), "{i}: {hit}");
+            }
+        }
+        assert!(hits > 0);
+    }
+
+    #[test]
+    fn degenerate_triangles_are_refused() {
+        let d = |a, b, c| Triangle::<f32>::new(a, b, c).check();
+        assert_eq!(d(Vec3::X, Vec3::X, Vec3::Y), Err(ShapeError::Degenerate));
+        assert_eq!(d(Vec3::ZERO, Vec3::X, Vec3::X * 3.0), Err(ShapeError::Degenerate));
+        assert_eq!(d(Vec3::ZERO, Vec3::NAN, Vec3::X), Err(ShapeError::NotFinite));
+        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e13, Vec3::X), Err(ShapeError::NotFinite));
+        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-30, Vec3::Y * 1e-30), Ok(()));
+    }
+}
