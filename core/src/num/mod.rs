@@ -95,8 +95,8 @@ pub trait Real:
     fn next_up(self) -> Self;
     /// The next smaller number.
     fn next_down(self) -> Self;
-    /// The power of two that brings `self > 0` into [1, 2) when multiplied with it; both the
-    /// factor and its inverse, exact.
+    /// The power of two that brings `self > 0` into [1, 2) when multiplied with it, or as near as
+    /// factors go at the ends of the range; the factor and its inverse, both exact.
     fn scale_to_one(self) -> (Self, Self);
 
     /// The product of two numbers, in full.
