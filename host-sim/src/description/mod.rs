@@ -1,5 +1,8 @@
 //! Scenes as the files describe them: in `f64`, in file order, before any number type is chosen.
 
+pub mod nff_write;
+pub mod spd;
+
 /// A point, a direction or a colour, as read.
 pub type Triple = [f64; 3];
 
