@@ -1,7 +1,13 @@
 //! Scenes as the files describe them: in `f64`, in file order, before any number type is chosen.
 
+pub mod load;
+pub mod nff;
 pub mod nff_write;
+pub mod obj;
+mod parse;
 pub mod spd;
+
+pub use parse::ParseError;
 
 /// A point, a direction or a colour, as read.
 pub type Triple = [f64; 3];
