@@ -6,7 +6,9 @@
 //! dropped, a cone's apex may be the wider end.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
+use super::nff_write::g;
 use super::parse::{ParseError, Tokens, number, quoted, text};
 use super::{Description, Item, Light, Material, Solid, Triple, View};
 
@@ -67,19 +69,19 @@ impl<'a> Reader<'a> {
             "l" => self.light(line),
             "f" => {
                 let form = "fill needs 8 numbers \"f r g b Kd Ks shine T ior\"";
-                let numbers = self.numbers(line, form)?;
+                let numbers = self.numbers(line, &form)?;
                 self.material = Some(self.intern(numbers));
                 Ok(())
             }
             "s" => {
                 let [x, y, z, r] =
-                    self.numbers(line, "sphere needs 4 numbers \"s x y z radius\"")?;
+                    self.numbers(line, &"sphere needs 4 numbers \"s x y z radius\"")?;
                 self.add(Solid::Sphere { center: [x, y, z], radius: r.abs() });
                 Ok(())
             }
             "c" => {
                 let form = "cone needs 8 numbers \"c x y z radius x y z radius\"";
-                let [x, y, z, base_radius, u, v, w, apex_radius] = self.numbers(line, form)?;
+                let [x, y, z, base_radius, u, v, w, apex_radius] = self.numbers(line, &form)?;
                 self.add(Solid::Cone {
                     base: [x, y, z],
                     base_radius: base_radius.abs(),
@@ -106,11 +108,25 @@ impl<'a> Reader<'a> {
     }
 
     /// `N` numbers of the statement that began at `line`; `form` says what it needs.
-    fn numbers<const N: usize>(&mut self, line: usize, form: &str) -> Result<[f64; N], ParseError> {
+    fn numbers<const N: usize>(
+        &mut self,
+        line: usize,
+        form: &dyn Display,
+    ) -> Result<[f64; N], ParseError> {
+        self.more_numbers(line, form, 0)
+    }
+
+    /// The same where `before` numbers have been read.
+    fn more_numbers<const N: usize>(
+        &mut self,
+        line: usize,
+        form: &dyn Display,
+        before: usize,
+    ) -> Result<[f64; N], ParseError> {
         let mut values = [0.0; N];
-        for (found, value) in values.iter_mut().enumerate() {
+        for (i, value) in values.iter_mut().enumerate() {
             *value = self.number().map_err(|problem| match problem {
-                Problem::NoNumber => ParseError::new(line, format!("{form}, found {found}")),
+                Problem::NoNumber => ParseError::new(line, format!("{form}, found {}", before + i)),
                 Problem::Bad(error) => error,
             })?;
         }
@@ -132,18 +148,18 @@ impl<'a> Reader<'a> {
         if self.has_background {
             return Err(ParseError::new(line, "a second background: keep one b"));
         }
-        self.scene.background = self.numbers(line, "background needs 3 numbers \"b r g b\"")?;
+        self.scene.background = self.numbers(line, &"background needs 3 numbers \"b r g b\"")?;
         self.has_background = true;
         Ok(())
     }
 
     fn light(&mut self, line: usize) -> Result<(), ParseError> {
         let form = "light needs 3 or 6 numbers \"l x y z [r g b]\"";
-        let position = self.numbers(line, form)?;
+        let position = self.numbers(line, &form)?;
         let color = match self.tokens.peek() {
             Some(word) if !is_keyword(word) => {
                 let form = "a light's colour needs 3 numbers \"l x y z r g b\"";
-                Some(self.numbers(line, form)?)
+                Some(self.numbers(line, &form)?)
             }
             _ => None,
         };
@@ -161,23 +177,24 @@ impl<'a> Reader<'a> {
             self.tokens.peek()
         {
             let line = self.tokens.next().map_or(line, |(line, _)| line);
-            let three = format!("{keyword} needs 3 numbers \"{keyword} x y z\"");
+            let three = format_args!("{keyword} needs 3 numbers \"{keyword} x y z\"");
             match keyword {
                 "from" => from = Some(self.numbers(line, &three)?),
                 "at" => at = Some(self.numbers(line, &three)?),
                 "up" => up = Some(self.numbers(line, &three)?),
                 "angle" => {
-                    let [degrees] = self.numbers(line, "angle needs 1 number, in degrees")?;
+                    let [degrees] = self.numbers(line, &"angle needs 1 number, in degrees")?;
                     if !(degrees > 0.0 && degrees < 180.0) {
-                        let message = format!("angle {degrees} is not between 0 and 180 degrees");
+                        let message =
+                            format!("angle {} is not between 0 and 180 degrees", g(degrees));
                         return Err(ParseError::new(line, message));
                     }
                     angle = Some(degrees);
                 }
-                "hither" => hither = Some(self.numbers(line, "hither needs 1 number")?),
+                "hither" => hither = Some(self.numbers(line, &"hither needs 1 number")?),
                 _ => {
                     let form = "resolution needs 2 whole numbers \"resolution width height\"";
-                    let size: [f64; 2] = self.numbers(line, form)?;
+                    let size: [f64; 2] = self.numbers(line, &form)?;
                     if size.iter().any(|n| n.fract() != 0.0 || !(1.0..=65_536.0).contains(n)) {
                         return Err(ParseError::new(line, format!("{form}, each 1 to 65536")));
                     }
@@ -201,32 +218,29 @@ impl<'a> Reader<'a> {
 
     fn polygon(&mut self, line: usize, with_normals: bool) -> Result<(), ParseError> {
         let (keyword, each) = if with_normals { ("pp", 6) } else { ("p", 3) };
-        let form = format!("polygon needs its number of vertices \"{keyword} n\"");
+        let form = format_args!("polygon needs its number of vertices \"{keyword} n\"");
         let [count] = self.numbers(line, &form)?;
         if count.fract() != 0.0 || count < 3.0 {
             let message =
-                format!("a polygon has a whole number of vertices, 3 or more, not {count}");
+                format!("a polygon has a whole number of vertices, 3 or more, not {}", g(count));
             return Err(ParseError::new(line, message));
         }
         // Every number takes two bytes at least: do not believe, nor reserve, more than can be.
         let room = self.tokens.bytes_left() / (2 * each) + 1;
         if count > room as f64 {
             let message =
-                format!("a polygon of {count} vertices, more than the rest of the file holds");
+                format!("a polygon of {} vertices, more than the rest of the file holds", g(count));
             return Err(ParseError::new(line, message));
         }
         let count = count as usize;
         let mut vertices = Vec::with_capacity(count);
         let mut normals = Vec::with_capacity(if with_normals { count } else { 0 });
+        let needed = count * each;
+        let form = format_args!("a polygon of {count} vertices needs {needed} numbers");
         for i in 0..count {
-            let form = format!(
-                "a polygon of {count} vertices needs {} numbers, vertex {} is incomplete",
-                count * each,
-                i + 1
-            );
-            vertices.push(self.numbers(line, &form)?);
+            vertices.push(self.more_numbers(line, &form, i * each)?);
             if with_normals {
-                normals.push(self.numbers(line, &form)?);
+                normals.push(self.more_numbers(line, &form, i * each + 3)?);
             }
         }
         self.add(Solid::Polygon { vertices, normals });
