@@ -1,6 +1,10 @@
 //! Ray tracing in kibibytes.
 #![no_std]
 
+pub mod accel;
 pub mod geom;
+pub mod memory;
 pub mod num;
+pub mod probe;
+pub mod scene;
 pub mod shape;

@@ -75,7 +75,7 @@ impl<R: Real> Ray<R> {
 pub(crate) const SLACK: i32 = 32;
 
 /// The reciprocals of a ray's direction, for tests against planes across the axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slopes<R: Real> {
     origin: Vec3<R>,
     /// 1 / direction; 0 along an axis the ray does not move along.

@@ -6,9 +6,10 @@ use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// One of the three axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axis {
     /// The first.
+    #[default]
     X,
     /// The second.
     Y,

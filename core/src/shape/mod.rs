@@ -52,7 +52,7 @@ impl core::error::Error for ShapeError {}
 /// An elementary solid or surface.
 pub trait Shape<R: Real> {
     /// What every shape of this kind wants to know of a ray, computed once a ray.
-    type PerRay: Copy;
+    type PerRay: Copy + Default;
 
     /// Whether the shape has an extent that a box can hold. The same for all shapes of a kind.
     const BOUNDED: bool = true;

@@ -27,7 +27,7 @@ impl<R: Real> Sphere<R> {
 }
 
 /// What a sphere wants to know of a ray: the reciprocals of its direction's length.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Length<R: Real> {
     /// 1 / |d|²
     inverse_squared: R,

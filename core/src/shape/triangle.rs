@@ -50,11 +50,10 @@ impl<R: Real> Triangle<R> {
             None => [R::ONE, R::ZERO, R::ZERO],
         }
     }
-
 }
 
 /// The shear that turns a ray into the third axis: what flat shapes want to know of a ray.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Shear<R: Real> {
     axes: (Axis, Axis, Axis),
     slope: (R, R),

@@ -1,0 +1,120 @@
+//! A structure whose kind is chosen while the program runs.
+
+use super::octree::{Limits, Octree};
+use super::{Accel, BuildError, Grid, Id, Naive, Visitor, grid};
+use crate::geom::Ray;
+use crate::memory::{Arena, Footprint};
+use crate::num::Real;
+use crate::scene::{Scene, Shapes};
+
+/// Which structure, with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// [`Naive`].
+    Naive,
+    /// [`Grid`] with so many cells along each axis.
+    Grid([u32; 3]),
+    /// [`Octree`], within the memory that is free.
+    Octree(Limits),
+}
+
+/// One of the structures, with the smallest numbers that suffice. Programs that know which one they
+/// want name it, and the others are not linked.
+#[derive(Debug)]
+pub enum Any<'m, R: Real> {
+    /// No structure.
+    Naive(Naive),
+    /// A grid with up to 65,535 shapes and references.
+    SmallGrid(Grid<'m, R, u16, u16>),
+    /// A grid with up to 65,535 shapes and more references.
+    Grid(Grid<'m, R, u16, u32>),
+    /// A grid with more shapes.
+    LargeGrid(Grid<'m, R, u32, u32>),
+    /// An octree with up to 65,535 shapes.
+    Octree(Octree<'m, R, u16>),
+    /// An octree with more shapes.
+    LargeOctree(Octree<'m, R, u32>),
+}
+
+/// Which numbers a grid is stored in.
+enum Width {
+    Small,
+    Medium,
+    Large,
+}
+
+fn width(shapes: usize, size: grid::Size) -> Width {
+    if shapes > <u16 as Id>::MAX {
+        Width::Large
+    } else if size.references > <u16 as Id>::MAX {
+        Width::Medium
+    } else {
+        Width::Small
+    }
+}
+
+impl<'m, R: Real> Any<'m, R> {
+    /// Builds a structure.
+    ///
+    /// # Errors
+    /// Those of the structure.
+    pub fn build<S: Shapes<R>>(
+        kind: Kind,
+        scene: &Scene<'_, R, S>,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, BuildError> {
+        let shapes = scene.shapes.bounded();
+        Ok(match kind {
+            Kind::Naive => Self::Naive(Naive::new(scene)),
+            Kind::Grid(n) => match width(shapes, grid::size(scene, n)) {
+                Width::Small => Self::SmallGrid(Grid::build(scene, n, arena)?),
+                Width::Medium => Self::Grid(Grid::build(scene, n, arena)?),
+                Width::Large => Self::LargeGrid(Grid::build(scene, n, arena)?),
+            },
+            Kind::Octree(limits) if shapes <= <u16 as Id>::MAX => {
+                Self::Octree(Octree::build(scene, limits, arena)?)
+            }
+            Kind::Octree(limits) => Self::LargeOctree(Octree::build(scene, limits, arena)?),
+        })
+    }
+
+    /// The bytes that [`Any::build`] takes; for an octree those without shortage, as it can do with
+    /// less.
+    ///
+    /// # Errors
+    /// Those of the structure, [`BuildError::Memory`] excepted.
+    pub fn footprint<S: Shapes<R>>(
+        kind: Kind,
+        scene: &Scene<'_, R, S>,
+    ) -> Result<Footprint, BuildError> {
+        let shapes = scene.shapes.bounded();
+        Ok(match kind {
+            Kind::Naive => Footprint::default(),
+            Kind::Grid(n) => {
+                let size = grid::size(scene, n);
+                match width(shapes, size) {
+                    Width::Small => size.footprint::<u16, u16>(),
+                    Width::Medium => size.footprint::<u16, u32>(),
+                    Width::Large => size.footprint::<u32, u32>(),
+                }
+            }
+            Kind::Octree(limits) if shapes <= <u16 as Id>::MAX => {
+                Octree::<R, u16>::footprint(scene, limits)?
+            }
+            Kind::Octree(limits) => Octree::<R, u32>::footprint(scene, limits)?,
+        })
+    }
+}
+
+impl<R: Real> Accel<R> for Any<'_, R> {
+    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        match self {
+            Self::Naive(naive) => naive.walk(ray, visitor),
+            Self::SmallGrid(grid) => grid.walk(ray, visitor),
+            Self::Grid(grid) => grid.walk(ray, visitor),
+            Self::LargeGrid(grid) => grid.walk(ray, visitor),
+            Self::Octree(octree) => octree.walk(ray, visitor),
+            Self::LargeOctree(octree) => octree.walk(ray, visitor),
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! A box divided into equal cells with whole-number coordinates: what grid and octree stand on.
+//!
+//! Walls are computed from their number by one multiplication and never accumulated, and a cell is
+//! known by its numbers, not by where a point happens to lie: so neither steps nor shapes can drift.
+
+use crate::geom::{Aabb, Slopes};
+use crate::num::{Axis, Real, Vec3, Vector};
+use crate::scene::{Scene, Shapes};
+
+/// Cells per axis at most: coordinates of cells stay exact in every number type.
+pub(crate) const MOST_CELLS: i32 = 1 << 20;
+
+/// A box and its division.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lattice<R: Real> {
+    bounds: Aabb<R>,
+    /// Edge lengths of a cell.
+    cell: Vec3<R>,
+    /// Their reciprocals.
+    inverse: Vec3<R>,
+    /// How far shapes reach beyond their boxes.
+    pad: R,
+    count: [i32; 3],
+}
+
+impl<R: Real> Lattice<R> {
+    /// Divides a box. Counts are brought into 1 to [`MOST_CELLS`].
+    pub(crate) fn new(bounds: Aabb<R>, count: [u32; 3], pad: R) -> Self {
+        let count = count.map(|n| n.clamp(1, MOST_CELLS as u32) as i32);
+        let cells = Vec3::<R>::from_array(count.map(R::from_i32));
+        let size = bounds.size();
+        Self {
+            bounds,
+            cell: size.zip(cells, |size, n| size / n),
+            inverse: size.zip(cells, |size, n| if size > R::ZERO { n / size } else { R::ZERO }),
+            pad,
+            count,
+        }
+    }
+
+    pub(crate) fn count(&self) -> [i32; 3] {
+        self.count
+    }
+
+    pub(crate) fn cell_size(&self) -> Vec3<R> {
+        self.cell
+    }
+
+    /// The parameters between which a ray is inside.
+    pub(crate) fn clip(&self, slopes: &Slopes<R>, min: R, max: R) -> Option<(R, R)> {
+        slopes.clip(self.bounds.lo, self.bounds.hi, min, max)
+    }
+
+    /// The cells of a point, the nearest ones when it lies outside.
+    pub(crate) fn cell_of(&self, p: Vec3<R>) -> [i32; 3] {
+        let [nx, ny, nz] = self.count;
+        let c = (p - self.bounds.lo).scale(self.inverse);
+        // Cutting off equals rounding down for all that is not clamped to 0 anyway.
+        let cell = |c: R, n: i32| c.to_i32().clamp(0, n - 1);
+        [cell(c.x(), nx), cell(c.y(), ny), cell(c.z(), nz)]
+    }
+
+    /// The first and the last cells that a shape's box touches, once it is padded.
+    pub(crate) fn cells_of(&self, bounds: Aabb<R>) -> ([i32; 3], [i32; 3]) {
+        let bounds = bounds.grown(self.pad);
+        (self.cell_of(bounds.lo), self.cell_of(bounds.hi))
+    }
+
+    /// The parameter at which a ray meets wall number `i` along `axis`; cell `i` lies behind it.
+    /// Beyond every distance when the ray does not move along the axis.
+    pub(crate) fn crossing(&self, slopes: &Slopes<R>, axis: Axis, i: i32) -> R {
+        if slopes.sign(axis) == 0 {
+            return R::INFINITY;
+        }
+        let wall = self.bounds.lo.along(axis) + self.cell.along(axis) * R::from_i32(i);
+        slopes.crossing(axis, wall)
+    }
+}
+
+/// The box of a structure's root: the scene's, a little larger, so that no face of a shape lies in
+/// an outer wall and scenes without thickness get some.
+///
+/// `lower` and `upper` say how much is added at either end, in 2^-15 of the extent.
+pub(crate) fn root<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    lower: i32,
+    upper: i32,
+) -> Aabb<R> {
+    let bounds = scene.bounds();
+    let least = scene.pad() + scene.pad() + R::EPSILON * R::EPSILON;
+    let unit = R::ONE / R::from_i32(1 << 15);
+    let grow = |n: i32| bounds.size().map(|s| (s * unit * R::from_i32(n)).max(least));
+    Aabb { lo: bounds.lo - grow(lower), hi: bounds.hi + grow(upper) }
+}

@@ -1,0 +1,26 @@
+//! No structure: every ray against every shape. The reference of all others, and the fastest for a
+//! handful of shapes.
+
+use super::{Accel, Visitor};
+use crate::geom::Ray;
+use crate::num::Real;
+use crate::scene::{Scene, Shapes};
+
+/// Tests all bounded shapes of a scene; needs no memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Naive {
+    shapes: usize,
+}
+
+impl Naive {
+    /// For the shapes of a scene.
+    pub fn new<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Self {
+        Self { shapes: scene.shapes.bounded() }
+    }
+}
+
+impl<R: Real> Accel<R> for Naive {
+    fn walk<V: Visitor<R>>(&self, _ray: &Ray<R>, visitor: &mut V) {
+        visitor.visit(0..self.shapes);
+    }
+}

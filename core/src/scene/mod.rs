@@ -1,0 +1,206 @@
+//! What is rendered: borrowed tables of shapes, surfaces and lights. A scene may lie in flash; its
+//! geometry is never copied.
+
+mod camera;
+mod material;
+mod shapes;
+//mod solids;
+
+pub use camera::{Camera, View, ViewError};
+pub use material::{Light, Material, Paint};
+pub use shapes::Shapes;
+//pub use solids::{Solids, Triangles};
+
+use crate::geom::{Aabb, Ray, SLACK};
+use crate::num::{Real, Vec3, Vector};
+use crate::shape::ShapeError;
+
+/// Why a scene is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// A shape is unusable.
+    Shape {
+        /// Its id in the scene.
+        id: usize,
+        /// What is wrong with it.
+        why: ShapeError,
+    },
+    /// Shapes without bounds come before shapes with bounds.
+    UnboundedFirst,
+    /// A surface's or light's number is not finite, or negative where that has no meaning.
+    Material {
+        /// Its place in the table of materials.
+        index: usize,
+    },
+    /// A light's number is not finite.
+    Light {
+        /// Its place in the table of lights.
+        index: usize,
+    },
+    /// Paint names a material that is not there, or its shapes are not in ascending order.
+    Paint {
+        /// Its place in the table of paint.
+        index: usize,
+    },
+}
+
+impl core::fmt::Display for SceneError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Shape { id, why } => write!(f, "shape {id}: {why}"),
+            Self::UnboundedFirst => f.write_str("shapes without bounds must come last"),
+            Self::Material { index } => write!(f, "material {index}: a number is out of range"),
+            Self::Light { index } => write!(f, "light {index}: a number is not finite"),
+            Self::Paint { index } => {
+                write!(f, "paint {index}: no such material, or its shapes are out of order")
+            }
+        }
+    }
+}
+
+impl core::error::Error for SceneError {}
+
+/// Shapes that have been checked, with what rays meet on them.
+///
+/// The order of the shapes decides ties. Only the shapes are needed for ray queries; without
+/// materials everything is a matt white, without lights everything is black.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a, R: Real, S> {
+    /// The shapes; an id is a place in this set.
+    pub shapes: S,
+    bounds: Aabb<R>,
+    scale: R,
+    materials: &'a [Material<R>],
+    paint: &'a [Paint],
+    lights: &'a [Light<R>],
+    background: Vec3<R>,
+}
+
+impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
+    /// Checks the shapes and measures the room they take. Time in proportion to their number.
+    ///
+    /// # Errors
+    /// [`SceneError::Shape`] with the first shape that is degenerate or not finite;
+    /// [`SceneError::UnboundedFirst`].
+    pub fn new(shapes: S) -> Result<Self, SceneError> {
+        let mut bounds = Aabb::empty();
+        for id in 0..shapes.count() {
+            shapes.check(id).map_err(|why| SceneError::Shape { id, why })?;
+            if id < shapes.bounded() {
+                bounds = bounds.union(shapes.bounds(id));
+            }
+        }
+        if !shapes.unbounded_last() {
+            return Err(SceneError::UnboundedFirst);
+        }
+        if shapes.bounded() == 0 {
+            bounds = Aabb { lo: Vec3::<R>::default(), hi: Vec3::<R>::default() };
+        }
+        let scale = bounds.max_abs();
+        let background = Vec3::<R>::default();
+        Ok(Self { shapes, bounds, scale, materials: &[], paint: &[], lights: &[], background })
+    }
+
+    /// Gives the shapes surfaces: every run of shapes its material.
+    ///
+    /// # Errors
+    /// [`SceneError::Material`], [`SceneError::Paint`].
+    pub fn painted(
+        self,
+        materials: &'a [Material<R>],
+        paint: &'a [Paint],
+    ) -> Result<Self, SceneError> {
+        if let Some(index) = materials.iter().position(|m| !m.is_usable()) {
+            return Err(SceneError::Material { index });
+        }
+        let mut next = 0;
+        for (index, run) in paint.iter().enumerate() {
+            if run.first < next || usize::from(run.material) >= materials.len() {
+                return Err(SceneError::Paint { index });
+            }
+            next = run.first.saturating_add(1);
+        }
+        Ok(Self { materials, paint, ..self })
+    }
+
+    /// Puts up lights, and a colour where nothing is hit.
+    ///
+    /// # Errors
+    /// [`SceneError::Light`].
+    pub fn lit(self, lights: &'a [Light<R>], background: Vec3<R>) -> Result<Self, SceneError> {
+        let usable = |l: &Light<R>| l.position.is_finite() && l.color.is_finite();
+        if let Some(index) = lights.iter().position(|l| !usable(l)) {
+            return Err(SceneError::Light { index });
+        }
+        Ok(Self { lights, background, ..self })
+    }
+
+    /// The smallest box around all bounded shapes; a point at the origin when there are none.
+    pub fn bounds(&self) -> Aabb<R> {
+        self.bounds
+    }
+
+    /// How far structures move the faces of every shape's box outwards: 64 units in the last place
+    /// of the scene's greatest coordinate. Half of it allows for what a shape may claim outside its
+    /// box, the other half for the rounding of cell walls.
+    pub fn pad(&self) -> R {
+        self.slack() + self.slack()
+    }
+
+    /// How far outside its box a shape may be hit.
+    pub fn slack(&self) -> R {
+        R::ulps(SLACK) * self.scale
+    }
+
+    /// Rays that start farther away than this are moved nearer first.
+    pub(crate) fn far(&self) -> R {
+        self.scale * R::from_i32(4)
+    }
+
+    /// The point lights.
+    pub fn lights(&self) -> &'a [Light<R>] {
+        self.lights
+    }
+
+    /// The colour where nothing is hit.
+    pub fn background(&self) -> Vec3<R> {
+        self.background
+    }
+
+    /// The surface of a shape. Searches the runs of paint by bisection.
+    pub fn material(&self, id: usize) -> Material<R> {
+        let after = self.paint.partition_point(|run| run.first <= id);
+        let run = after.checked_sub(1).and_then(|i| self.paint.get(i));
+        let material = run.map_or(0, |run| usize::from(run.material));
+        self.materials.get(material).copied().unwrap_or_default()
+    }
+
+    /// The surface where a ray hit a shape; `None` where a normal cannot be told.
+    pub fn surface(&self, ray: &Ray<R>, id: usize, t: R) -> Option<Surface<R>> {
+        let d = ray.direction();
+        let outside = self.shapes.normal(id, ray, t).unit()?;
+        let front = outside.dot(d) <= R::Wide::default();
+        let normal = if front { outside } else { -outside };
+        let shading = match self.shapes.shading_normal(id, ray, t).unit() {
+            // A vertex normal may face away near a silhouette; light would come through.
+            Some(n) if n.dot(normal) < R::Wide::default() => -n,
+            Some(n) => n,
+            None => normal,
+        };
+        Some(Surface { point: ray.at(t), normal, shading, front })
+    }
+}
+
+/// Where and how a ray meets a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface<R: Real> {
+    /// The point.
+    pub point: Vec3<R>,
+    /// The geometric normal, of length 1, facing the ray's origin.
+    pub normal: Vec3<R>,
+    /// The normal for shading, of length 1, on the same side.
+    pub shading: Vec3<R>,
+    /// Whether the ray comes from outside (for flat shapes: from the front).
+    pub front: bool,
+}

@@ -1,0 +1,156 @@
+//! Numbered sets of shapes: what a scene holds and a structure indexes.
+//!
+//! A slice of one kind of shape is a set; two sets in a tuple are a set, the second following the
+//! first. So a program names the kinds it uses in a type, and code for others is never generated:
+//! `&[Sphere<f32>]`, `(&[Sphere<f32>], &[Triangle<f32>])`, or [`Solids`](super::Solids) for all of
+//! them. A set of one's own makes any object traceable.
+
+use crate::geom::{Aabb, Ray};
+use crate::num::{Real, Vec3};
+use crate::shape::{Shape, ShapeError};
+
+/// A numbered set of shapes.
+pub trait Shapes<R: Real> {
+    /// What the shapes want to know of a ray, computed once a ray.
+    type PerRay: Copy + Default;
+
+    /// How many there are.
+    fn count(&self) -> usize;
+
+    /// How many of them have bounds; their ids come first.
+    fn bounded(&self) -> usize;
+
+    /// Whether the ids of bounded shapes do come first.
+    fn unbounded_last(&self) -> bool {
+        true
+    }
+
+    /// See [`Shape::check`].
+    ///
+    /// # Errors
+    /// What is wrong with the shape.
+    fn check(&self, id: usize) -> Result<(), ShapeError>;
+
+    /// See [`Shape::bounds`].
+    fn bounds(&self, id: usize) -> Aabb<R>;
+
+    /// Prepares a ray.
+    fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay;
+
+    /// See [`Shape::hit`].
+    fn hit(&self, id: usize, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> Option<R>;
+
+    /// See [`Shape::occludes`].
+    fn occludes(&self, id: usize, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> bool;
+
+    /// See [`Shape::normal`].
+    fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R>;
+
+    /// See [`Shape::shading_normal`].
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R>;
+}
+
+/// The shapes of one kind. An id beyond the end is never hit.
+impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
+    type PerRay = T::PerRay;
+
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn bounded(&self) -> usize {
+        if T::BOUNDED { self.len() } else { 0 }
+    }
+
+    fn check(&self, id: usize) -> Result<(), ShapeError> {
+        self.get(id).map_or(Ok(()), T::check)
+    }
+
+    fn bounds(&self, id: usize) -> Aabb<R> {
+        self.get(id).map_or_else(Aabb::empty, T::bounds)
+    }
+
+    fn per_ray(&self, ray: &Ray<R>) -> T::PerRay {
+        if self.is_empty() { T::PerRay::default() } else { T::per_ray(ray) }
+    }
+
+    fn hit(&self, id: usize, ray: &Ray<R>, per_ray: &T::PerRay, min: R, max: R) -> Option<R> {
+        self.get(id)?.hit(ray, per_ray, min, max)
+    }
+
+    fn occludes(&self, id: usize, ray: &Ray<R>, per_ray: &T::PerRay, min: R, max: R) -> bool {
+        self.get(id).is_some_and(|shape| shape.occludes(ray, per_ray, min, max))
+    }
+
+    fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
+        self.get(id).map_or_else(Vec3::<R>::default, |shape| shape.normal(ray, t))
+    }
+
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
+        self.get(id).map_or_else(Vec3::<R>::default, |shape| shape.shading_normal(ray, t))
+    }
+}
+
+/// One set after the other: the ids of the second follow those of the first.
+impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
+    type PerRay = (A::PerRay, B::PerRay);
+
+    fn count(&self) -> usize {
+        self.0.count() + self.1.count()
+    }
+
+    fn bounded(&self) -> usize {
+        self.0.bounded() + self.1.bounded()
+    }
+
+    fn unbounded_last(&self) -> bool {
+        let in_order = self.0.bounded() == self.0.count() || self.1.bounded() == 0;
+        in_order && self.0.unbounded_last() && self.1.unbounded_last()
+    }
+
+    fn check(&self, id: usize) -> Result<(), ShapeError> {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.check(id),
+            Some(id) => self.1.check(id),
+        }
+    }
+
+    fn bounds(&self, id: usize) -> Aabb<R> {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.bounds(id),
+            Some(id) => self.1.bounds(id),
+        }
+    }
+
+    fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {
+        (self.0.per_ray(ray), self.1.per_ray(ray))
+    }
+
+    fn hit(&self, id: usize, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> Option<R> {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.hit(id, ray, &per_ray.0, min, max),
+            Some(id) => self.1.hit(id, ray, &per_ray.1, min, max),
+        }
+    }
+
+    fn occludes(&self, id: usize, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> bool {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.occludes(id, ray, &per_ray.0, min, max),
+            Some(id) => self.1.occludes(id, ray, &per_ray.1, min, max),
+        }
+    }
+
+    fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.normal(id, ray, t),
+            Some(id) => self.1.normal(id, ray, t),
+        }
+    }
+
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.shading_normal(id, ray, t),
+            Some(id) => self.1.shading_normal(id, ray, t),
+        }
+    }
+}
