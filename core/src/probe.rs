@@ -1,5 +1,16 @@
 //! Counters that cost nothing when they are not asked for.
 
+/// What a ray is shot for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayKind {
+    /// From the eye.
+    Primary,
+    /// Towards a light.
+    Shadow,
+    /// Mirrored or refracted.
+    Secondary,
+}
+
 /// Is told of every piece of work on the way of a ray.
 ///
 /// A type parameter everywhere: with `()` every call is empty and no instruction is left of it.
@@ -12,12 +23,23 @@ pub trait Probe {
     fn step(&mut self) {}
     /// A leaf or a cell was entered; whether it lists no shape.
     fn leaf(&mut self, _empty: bool) {}
+    /// A ray was shot; whether it hit something (a shadow ray: whether it was blocked).
+    fn ray(&mut self, _kind: RayKind, _hit: bool) {}
 }
 
 /// Counts nothing.
 impl Probe for () {}
 
-/// Counts everything; 40 bytes.
+/// How many rays of a kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rays {
+    /// Rays shot.
+    pub shot: u64,
+    /// Of these, how many hit something.
+    pub hit: u64,
+}
+
+/// Counts everything; 88 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Tests of a ray against a shape.
@@ -30,6 +52,12 @@ pub struct Counters {
     pub leaves: u64,
     /// Of these, how many list no shape.
     pub empty_leaves: u64,
+    /// Rays from the eye.
+    pub primary: Rays,
+    /// Rays towards lights; hit means blocked.
+    pub shadow: Rays,
+    /// Mirrored and refracted rays.
+    pub secondary: Rays,
 }
 
 impl Probe for Counters {
@@ -46,6 +74,21 @@ impl Probe for Counters {
         self.leaves += 1;
         self.empty_leaves += u64::from(empty);
     }
+    fn ray(&mut self, kind: RayKind, hit: bool) {
+        let rays = match kind {
+            RayKind::Primary => &mut self.primary,
+            RayKind::Shadow => &mut self.shadow,
+            RayKind::Secondary => &mut self.secondary,
+        };
+        *rays += Rays { shot: 1, hit: hit.into() };
+    }
+}
+
+impl core::ops::AddAssign for Rays {
+    fn add_assign(&mut self, other: Self) {
+        self.shot += other.shot;
+        self.hit += other.hit;
+    }
 }
 
 impl core::ops::AddAssign for Counters {
@@ -55,21 +98,8 @@ impl core::ops::AddAssign for Counters {
         self.steps += other.steps;
         self.leaves += other.leaves;
         self.empty_leaves += other.empty_leaves;
-    }
-}
-
-/// Passes on to one that is borrowed.
-impl<P: Probe> Probe for &mut P {
-    fn primitive_test(&mut self) {
-        (**self).primitive_test();
-    }
-    fn mailbox_skip(&mut self) {
-        (**self).mailbox_skip();
-    }
-    fn step(&mut self) {
-        (**self).step();
-    }
-    fn leaf(&mut self, empty: bool) {
-        (**self).leaf(empty);
+        self.primary += other.primary;
+        self.shadow += other.shadow;
+        self.secondary += other.secondary;
     }
 }

@@ -42,10 +42,6 @@ impl<R: Real> Lattice<R> {
         self.count
     }
 
-    pub(crate) fn cell_size(&self) -> Vec3<R> {
-        self.cell
-    }
-
     /// The parameters between which a ray is inside.
     pub(crate) fn clip(&self, slopes: &Slopes<R>, min: R, max: R) -> Option<(R, R)> {
         slopes.clip(self.bounds.lo, self.bounds.hi, min, max)

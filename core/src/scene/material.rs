@@ -6,7 +6,7 @@ use crate::num::{Real, Vec3, Vector};
 /// A surface; 32 bytes in `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material<R: Real> {
-    /// Colour of diffusely reflected and of transmitted light, each component 0 to 1.
+    /// Colour of diffusely reflected light, each component usually 0 to 1.
     pub color: Vec3<R>,
     /// Kd: share of light that is reflected diffusely.
     pub diffuse: R,
@@ -16,7 +16,7 @@ pub struct Material<R: Real> {
     pub shine: R,
     /// T: share that goes through.
     pub transmission: R,
-    /// Index of refraction; 1 or less of a transmitting surface: light goes straight on.
+    /// Index of refraction; 0 or 1: light goes straight on.
     pub index: R,
 }
 

@@ -1,0 +1,191 @@
+//! From a scene and a number of bytes to a structure with its parameters, and the reason.
+
+use crate::accel::{self, BuildError, mailbox, octree};
+use crate::memory::{Footprint, OutOfArena};
+use crate::num::Real;
+use crate::scene::{Scene, Shapes};
+
+/// A kind of structure, its parameters left open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Structure {
+    /// [`accel::Naive`].
+    Naive,
+    /// [`accel::Grid`].
+    Grid,
+    /// [`accel::Octree`].
+    Octree,
+}
+
+/// What is already decided; the plan fills in the rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wishes {
+    /// The structure.
+    pub structure: Option<Structure>,
+    /// The mailbox.
+    pub mailbox: Option<mailbox::Kind>,
+    /// Cells of a grid along each axis.
+    pub resolution: Option<[u32; 3]>,
+    /// An octree's limit of shapes per cell.
+    pub max_objects: Option<usize>,
+    /// An octree's limit of depth.
+    pub max_level: Option<u32>,
+}
+
+/// Why a plan is what it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// It was asked for.
+    Asked,
+    /// So few shapes are tested faster than a structure is walked.
+    FewShapes {
+        /// How many there are.
+        shapes: usize,
+    },
+    /// Not even the smallest structure fits.
+    NoMemory {
+        /// Bytes that the smallest one takes.
+        needed: usize,
+        /// Bytes there are.
+        available: usize,
+    },
+    /// An octree that takes what memory it can use.
+    ManyShapes {
+        /// How many there are.
+        shapes: usize,
+    },
+}
+
+impl core::fmt::Display for Reason {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Asked => f.write_str("as asked for"),
+            Self::FewShapes { shapes } => {
+                write!(f, "{shapes} shapes: testing all is cheaper than any structure")
+            }
+            Self::NoMemory { needed, available } => {
+                write!(f, "the smallest structure takes {needed} bytes of {available}")
+            }
+            Self::ManyShapes { shapes } => {
+                write!(f, "{shapes} shapes: an octree grows into the memory that is left")
+            }
+        }
+    }
+}
+
+/// A structure and a mailbox, decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// The structure with its parameters.
+    pub accel: accel::Kind,
+    /// The mailbox.
+    pub mailbox: mailbox::Kind,
+    /// Why this structure.
+    pub reason: Reason,
+}
+
+/// Up to this many shapes are tested one by one.
+const FEW: usize = 12;
+
+/// Decides on a structure for a scene and a number of bytes.
+///
+/// # Errors
+/// [`BuildError::Memory`] when what was wished for cannot fit: an arena of exactly the bytes that
+/// it names holds the plan. Without wishes there is always a plan, even for 0 bytes.
+pub fn plan<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    budget: usize,
+    wishes: &Wishes,
+) -> Result<Plan, BuildError> {
+    let shapes = scene.shapes.bounded();
+    let (structure, reason) = match wishes.structure {
+        Some(structure) => (structure, Reason::Asked),
+        None if wishes.resolution.is_some() => (Structure::Grid, Reason::Asked),
+        None if wishes.max_objects.or(wishes.max_level.map(|_| 0)).is_some() => {
+            (Structure::Octree, Reason::Asked)
+        }
+        None => choose(scene, shapes, budget, wishes)?,
+    };
+    let mailbox = match (wishes.mailbox, structure) {
+        (Some(mailbox), _) => mailbox,
+        (None, Structure::Naive) => mailbox::Kind::Off,
+        (None, _) => mailbox_for(shapes, budget),
+    };
+    let taken = mailbox.footprint(shapes);
+    let room = budget.saturating_sub(taken.kept);
+    let accel = match structure {
+        Structure::Naive => accel::Kind::Naive,
+        Structure::Grid => accel::Kind::Grid(match wishes.resolution {
+            Some(resolution) => resolution,
+            None => grid_for(scene, room)?,
+        }),
+        Structure::Octree => accel::Kind::Octree(octree::Limits {
+            max_objects: wishes.max_objects.unwrap_or(4),
+            max_level: wishes.max_level.unwrap_or(octree::DEEPEST),
+        }),
+    };
+    let least = match accel {
+        accel::Kind::Naive | accel::Kind::Grid(_) => accel::Any::footprint(accel, scene)?,
+        accel::Kind::Octree(limits) => root_of(scene, limits)?,
+    };
+    let needed = taken.then(least).peak;
+    if needed > budget {
+        return Err(OutOfArena { needed, available: budget }.into());
+    }
+    Ok(Plan { accel, mailbox, reason })
+}
+
+/// A structure for a scene without wishes.
+fn choose<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    shapes: usize,
+    budget: usize,
+    wishes: &Wishes,
+) -> Result<(Structure, Reason), BuildError> {
+    if shapes <= FEW {
+        return Ok((Structure::Naive, Reason::FewShapes { shapes }));
+    }
+    let mailbox = wishes.mailbox.unwrap_or(mailbox::Kind::Off).footprint(shapes);
+    let limits = octree::Limits { max_objects: 0, max_level: 0 };
+    let needed = mailbox.then(root_of(scene, limits)?).peak;
+    Ok(if needed > budget {
+        (Structure::Naive, Reason::NoMemory { needed, available: budget })
+    } else {
+        (Structure::Octree, Reason::ManyShapes { shapes })
+    })
+}
+
+/// Stamps where they take no more than an eighth of the memory, otherwise the table of constant
+/// size, where that takes no more.
+fn mailbox_for(shapes: usize, budget: usize) -> mailbox::Kind {
+    let affordable = |kind: &mailbox::Kind| kind.footprint(shapes).kept <= budget / 8;
+    [mailbox::Kind::Stamps, mailbox::Kind::Cache]
+        .into_iter()
+        .find(affordable)
+        .unwrap_or(mailbox::Kind::Off)
+}
+
+/// The finest grid, of at most eight cells a shape, that fits.
+fn grid_for<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    room: usize,
+) -> Result<[u32; 3], BuildError> {
+    let mut cells = scene.shapes.bounded().saturating_mul(8).max(1);
+    loop {
+        let resolution = accel::grid::resolution_for(scene, cells);
+        let footprint = accel::Any::footprint(accel::Kind::Grid(resolution), scene)?;
+        if footprint.peak <= room || cells == 1 {
+            return Ok(resolution);
+        }
+        cells = cells / 2 + cells / 4;
+    }
+}
+
+/// An octree that is a single cell.
+fn root_of<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    limits: octree::Limits,
+) -> Result<Footprint, BuildError> {
+    let root = octree::Limits { max_level: 0, ..limits };
+    accel::Any::footprint(accel::Kind::Octree(root), scene)
+}

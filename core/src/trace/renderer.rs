@@ -1,0 +1,87 @@
+//! Pictures, row by row.
+
+use super::Tracer;
+use crate::accel::{Accel, Mailbox};
+use crate::display::rgb888;
+use crate::num::{Real, Vec3};
+use crate::probe::Probe;
+use crate::scene::{Camera, Shapes};
+use embedded_graphics_core::draw_target::DrawTarget;
+use embedded_graphics_core::pixelcolor::Rgb888;
+use embedded_graphics_core::prelude::{Point, Size};
+use embedded_graphics_core::primitives::Rectangle;
+
+/// Renders a picture row by row, so that a main loop never waits longer than for one row. Keeps no
+/// pixels.
+#[derive(Debug)]
+pub struct Renderer<'a, R: Real, S, A, M> {
+    tracer: Tracer<'a, R, S, A, M>,
+    camera: Camera<R>,
+    width: u16,
+    height: u16,
+    next_row: u16,
+}
+
+impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Renderer<'a, R, S, A, M> {
+    /// A picture of so many pixels, not begun. The camera's aspect should be `width / height`.
+    pub fn new(tracer: Tracer<'a, R, S, A, M>, camera: Camera<R>, width: u16, height: u16) -> Self {
+        Self { tracer, camera, width, height, next_row: 0 }
+    }
+
+    /// The row that comes next, from the top; the height when the picture is done.
+    pub fn next_row(&self) -> u16 {
+        self.next_row
+    }
+
+    /// Goes on with another row: backwards to begin again, forwards to share the work.
+    pub fn skip_to(&mut self, row: u16) {
+        self.next_row = row.min(self.height);
+    }
+
+    /// The colour of a pixel: one ray through its middle. The pixel (0, 0) is at the upper left.
+    pub fn pixel<P: Probe>(&mut self, x: u16, y: u16, probe: &mut P) -> Vec3<R> {
+        // Middles of pixels, in halves of pixels from the middle of the picture.
+        let across = |i: u16, n: u16| {
+            R::from_i32(2 * i32::from(i) + 1 - i32::from(n)) / R::from_i32(i32::from(n))
+        };
+        let ray = self.camera.ray(across(x, self.width), -across(y, self.height));
+        ray.map_or_else(Vec3::<R>::default, |ray| self.tracer.color(ray, probe))
+    }
+
+    /// Renders the next row into a display, in one call of
+    /// [`fill_contiguous`](DrawTarget::fill_contiguous) with the pixels as they come to be. Returns
+    /// whether there was a row left.
+    ///
+    /// # Errors
+    /// Those of the display; the row then counts as not drawn.
+    pub fn draw_row<D>(&mut self, display: &mut D, probe: &mut impl Probe) -> Result<bool, D::Error>
+    where
+        D: DrawTarget,
+        D::Color: From<Rgb888>,
+    {
+        let y = self.next_row;
+        if y >= self.height {
+            return Ok(false);
+        }
+        let row = Rectangle::new(Point::new(0, i32::from(y)), Size::new(self.width.into(), 1));
+        let pixels = (0..self.width).map(|x| rgb888::<R>(self.pixel(x, y, probe)).into());
+        display.fill_contiguous(&row, pixels)?;
+        self.next_row = y + 1;
+        Ok(true)
+    }
+
+    /// Renders all rows that are left.
+    ///
+    /// # Errors
+    /// Those of the display.
+    pub fn draw<D>(&mut self, display: &mut D, probe: &mut impl Probe) -> Result<(), D::Error>
+    where
+        D: DrawTarget,
+        D::Color: From<Rgb888>,
+    {
+        for _ in self.next_row..self.height {
+            self.draw_row(display, probe)?;
+        }
+        Ok(())
+    }
+}

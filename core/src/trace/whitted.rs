@@ -1,0 +1,214 @@
+//! Shading, shadows, mirrors and glass.
+//!
+//! T. Whitted, "An improved illumination model for shaded display", CACM 23(6) (1980), with the
+//! surfaces of the Neutral File Format. The tree of rays is walked depth first on a stack of fixed
+//! size; what a ray adds to the pixel is known when it is spawned, so nothing has to return.
+
+use crate::accel::{Accel, Mailbox};
+use crate::geom::{Interval, Ray};
+use crate::num::{Real, Vec3, Vector};
+use crate::probe::{Probe, RayKind};
+use crate::scene::{Light, Material, Scene, Shapes, Surface};
+use heapless::Vec;
+
+/// The greatest depth of recursion; a pending ray takes 44 bytes in `f32`.
+pub const MOST_DEPTH: u8 = 16;
+
+/// Which mirrored and refracted rays are shot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Secondary {
+    /// Those that add something to the picture.
+    Contributing,
+    /// A mirrored ray from every surface that mirrors or transmits, whatever it adds: the rules by
+    /// which the ray counts of the Standard Procedural Databases were made.
+    All,
+}
+
+/// How rays are followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Depth at which no more rays are spawned; a ray from the eye has depth 1. From 1 to
+    /// [`MOST_DEPTH`], other numbers count as the nearest of these.
+    pub max_depth: u8,
+    /// Which secondary rays are shot.
+    pub secondary: Secondary,
+}
+
+impl Default for Settings {
+    /// Depth 5, contributing rays only.
+    fn default() -> Self {
+        Self { max_depth: 5, secondary: Secondary::Contributing }
+    }
+}
+
+/// A ray still to be followed.
+#[derive(Clone, Copy, Debug)]
+struct Pending<R: Real> {
+    ray: Ray<R>,
+    /// Share of its colour in the pixel's.
+    weight: R,
+    depth: u8,
+}
+
+/// Follows rays through a scene.
+#[derive(Debug)]
+pub struct Tracer<'a, R: Real, S, A, M> {
+    scene: &'a Scene<'a, R, S>,
+    accel: &'a A,
+    mailbox: M,
+    settings: Settings,
+}
+
+/// How far, in units of the last place of the coordinates involved, a new ray starts off a surface:
+/// twice the rounding error of a hit point (t, its product with the direction and the sum each add
+/// up to one unit, the shape's own test up to two).
+const OFF_SURFACE: i32 = 8;
+
+impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> {
+    /// A tracer over a structure and a mailbox made for that scene.
+    pub fn new(scene: &'a Scene<'a, R, S>, accel: &'a A, mailbox: M, settings: Settings) -> Self {
+        let max_depth = settings.max_depth.clamp(1, MOST_DEPTH);
+        Self { scene, accel, mailbox, settings: Settings { max_depth, ..settings } }
+    }
+
+    /// The colour that a ray from the eye sees, not limited to 1.
+    pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
+        let mut color = Vec3::<R>::default();
+        // Each level leaves at most one ray behind, so it never holds more than the depth.
+        let mut pending = Vec::<Pending<R>, { MOST_DEPTH as usize }>::new();
+        let mut next = Some(Pending { ray, weight: R::ONE, depth: 1 });
+        while let Some(Pending { ray, weight, depth }) = next {
+            let hit = self.accel.nearest(self.scene, &ray, Interval::RAY, &mut self.mailbox, probe);
+            let kind = if depth == 1 { RayKind::Primary } else { RayKind::Secondary };
+            probe.ray(kind, hit.is_some());
+            let surface = hit.and_then(|hit| {
+                let surface = self.scene.surface(&ray, hit.id, hit.t)?;
+                Some((surface, self.scene.material(hit.id)))
+            });
+            match surface {
+                None => color = color + self.scene.background() * weight,
+                Some((surface, material)) => {
+                    let bounce = Bounce::new(&ray, surface, material);
+                    color = color + self.local(&bounce, probe) * weight;
+                    if depth < self.settings.max_depth {
+                        for (ray, share) in bounce.spawn(self.settings.secondary) {
+                            let depth = depth + 1;
+                            let _ = pending.push(Pending { ray, weight: weight * share, depth });
+                        }
+                    }
+                }
+            }
+            next = pending.pop();
+        }
+        color
+    }
+
+    /// Light that comes straight from the lamps.
+    fn local<P: Probe>(&mut self, bounce: &Bounce<R>, probe: &mut P) -> Vec3<R> {
+        let mut color = Vec3::<R>::default();
+        for light in self.scene.lights() {
+            let Some((towards, share)) = bounce.lit_by(light) else { continue };
+            let between = Interval::new(R::ZERO, R::ONE);
+            let blocked =
+                self.accel.occluded(self.scene, &towards, between, &mut self.mailbox, probe);
+            probe.ray(RayKind::Shadow, blocked);
+            if !blocked {
+                color = color + bounce.reflected(&towards, share).scale(light.color);
+            }
+        }
+        color
+    }
+}
+
+/// A ray's arrival at a surface.
+struct Bounce<R: Real> {
+    surface: Surface<R>,
+    material: Material<R>,
+    /// Direction of arrival, of length 1.
+    direction: Vec3<R>,
+    /// Direction of the mirrored ray, of length 1.
+    mirrored: Vec3<R>,
+    /// From the surface to where rays on the near side start.
+    off: Vec3<R>,
+}
+
+impl<R: Real> Bounce<R> {
+    fn new(ray: &Ray<R>, surface: Surface<R>, material: Material<R>) -> Self {
+        let direction = ray.direction();
+        let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
+        let (direction, mirrored) = if mirrors {
+            let direction = direction * (R::ONE / direction.length());
+            let along = R::narrow(direction.dot(surface.shading));
+            (direction, direction - surface.shading * (along + along))
+        } else {
+            (direction, direction)
+        };
+        let reach = ray.origin().max_abs().max(surface.point.max_abs());
+        let off = surface.normal * (R::ulps(OFF_SURFACE) * reach);
+        Self { surface, material, direction, mirrored, off }
+    }
+
+    /// The ray to a light and the cosine at which its light falls in; `None` when the surface faces
+    /// away. The light is at parameter 1.
+    fn lit_by(&self, light: &Light<R>) -> Option<(Ray<R>, R)> {
+        let origin = self.surface.point + self.off;
+        let towards = light.position - origin;
+        let zero = R::Wide::default();
+        let dot = self.surface.shading.dot(towards);
+        if !(dot > zero && self.surface.normal.dot(towards) > zero) {
+            return None;
+        }
+        let cosine = R::narrow(dot) / towards.length();
+        Some((Ray::new(origin, towards).ok()?, cosine))
+    }
+
+    /// What the surface sends back of white light from a direction.
+    fn reflected(&self, towards: &Ray<R>, cosine: R) -> Vec3<R> {
+        let Material { color, diffuse, specular, shine, .. } = self.material;
+        let matt = color * (diffuse * cosine);
+        if !(specular > R::ZERO) {
+            return matt;
+        }
+        let towards = towards.direction();
+        let highlight = R::narrow(self.mirrored.dot(towards)) / towards.length();
+        if !(highlight > R::ZERO) {
+            return matt;
+        }
+        let highlight = specular * highlight.min(R::ONE).powf(shine);
+        matt + Vec3::<R>::splat(highlight)
+    }
+
+    /// The rays that go on from here, each with its share.
+    fn spawn(&self, secondary: Secondary) -> impl Iterator<Item = (Ray<R>, R)> {
+        let Material { specular, transmission, .. } = self.material;
+        let through = if transmission > R::ZERO { self.refracted() } else { None };
+        // Where nothing can leave, everything is mirrored.
+        let total = transmission > R::ZERO && through.is_none();
+        let share = if total { specular + transmission } else { specular };
+        let mirrors = match secondary {
+            Secondary::Contributing => share > R::ZERO,
+            Secondary::All => specular > R::ZERO || transmission > R::ZERO,
+        };
+        let point = self.surface.point;
+        let ray = |origin, direction, share| Some((Ray::new(origin, direction).ok()?, share));
+        let mirrored = if mirrors { ray(point + self.off, self.mirrored, share) } else { None };
+        let through = through.and_then(|d| ray(point - self.off, d, transmission));
+        through.into_iter().chain(mirrored)
+    }
+
+    /// Direction behind the surface, after Snell; `None` for total reflection.
+    fn refracted(&self) -> Option<Vec3<R>> {
+        let (d, n) = (self.direction, self.surface.shading);
+        let index = self.material.index;
+        if !(index > R::ZERO) || index == R::ONE {
+            return Some(d);
+        }
+        let ratio = if self.surface.front { R::ONE / index } else { index };
+        let cosine = -R::narrow(d.dot(n));
+        let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
+        if !(under_root >= R::ZERO) {
+            return None;
+        }
+        Some(d * ratio + n * (ratio * cosine - under_root.sqrt()))
+    }
+}
