@@ -101,7 +101,7 @@ pub fn plan<R: Real, S: Shapes<R>>(
     let (structure, reason) = match wishes.structure {
         Some(structure) => (structure, Reason::Asked),
         None if wishes.resolution.is_some() => (Structure::Grid, Reason::Asked),
-        None if wishes.max_objects.or(wishes.max_level.map(|_| 0)).is_some() => {
+        None if wishes.max_objects.is_some() || wishes.max_level.is_some() => {
             (Structure::Octree, Reason::Asked)
         }
         None => choose(scene, shapes, budget, wishes)?,

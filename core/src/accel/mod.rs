@@ -22,7 +22,7 @@ mod naive;
 pub mod octree;
 mod query;
 
-pub use any::Any;
+pub use any::{Any, Kind};
 pub use error::BuildError;
 pub use grid::Grid;
 pub use id::Id;
