@@ -10,9 +10,13 @@
 //!   seen edge-on has no well-defined `t`), it ends in [`settle`].
 //! * A shape that passed [`Shape::check`] is never hit at a `t` that is not a number.
 
+mod cylinder;
+mod polygon;
 mod sphere;
 mod triangle;
 
+pub use cylinder::{Cylinder, Nearest};
+pub use polygon::Polygon;
 pub use sphere::{Length, Sphere};
 pub use triangle::{Shear, Triangle};
 

@@ -1,0 +1,499 @@
+//! The cylinder, open or closed.
+//!
+//! The crossings of the wall are found as for the sphere (Haines, Günther, Akenine-Möller, Ray
+//! Tracing Gems, 2019, chapter 7), in the plane across the axis. Before that the ray is taken from
+//! its point nearest to the middle, so that no error grows with the distance along the axis. A
+//! closed cylinder is the part of the wall's inside between two planes (T. L. Kay, J. T. Kajiya,
+//! "Ray tracing complex scenes", 1986), not wall plus discs: no ray gets in between at the rims.
+
+use super::{Shape, ShapeError, settle, workable};
+use crate::geom::{Aabb, Ray};
+use crate::num::{Axis, Real, Vec3, Vector};
+
+/// A cylinder; 36 bytes in `f32`.
+///
+/// Its wall counts from outside and from inside. Both ends belong to it, at heights 0 and `height`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Cylinder<R: Real> {
+    /// The middle of its lower end.
+    pub base: Vec3<R>,
+    /// The direction to the other end, of length 1.
+    pub axis: Vec3<R>,
+    /// The distance between the ends, greater than 0.
+    pub height: R,
+    /// Radius, greater than 0.
+    pub radius: R,
+    /// Whether discs close the ends.
+    pub capped: bool,
+}
+
+impl<R: Real> Cylinder<R> {
+    /// An open cylinder between the middles of its ends. Where they coincide the axis is 0, and
+    /// [`Shape::check`] refuses it.
+    pub fn new(base: Vec3<R>, apex: Vec3<R>, radius: R) -> Self {
+        let (axis, height) = axis_between::<R>(base, apex);
+        Self { base, axis, height, radius, capped: false }
+    }
+
+    /// From what it consists of; for constants. `axis` has length 1.
+    pub const fn from_parts(
+        base: Vec3<R>,
+        axis: Vec3<R>,
+        height: R,
+        radius: R,
+        capped: bool,
+    ) -> Self {
+        Self { base, axis, height, radius, capped }
+    }
+
+    /// The same with discs on its ends.
+    pub fn capped(self) -> Self {
+        Self { capped: true, ..self }
+    }
+
+    fn crossings(&self, ray: &Ray<R>, nearest: &Nearest<R>) -> Option<(Frame<R>, Crossings<R>)> {
+        let half = self.height * R::HALF;
+        let frame = Frame::of(ray, nearest, self.base + self.axis * half, self.axis);
+        let slab = frame.slab(half)?;
+        let wall = self.wall(&frame)?;
+        Some((frame, frame.ends(wall, slab, (self.capped, self.capped))))
+    }
+
+    /// Between which steps the ray is inside the wall.
+    fn wall(&self, frame: &Frame<R>) -> Option<(R, R)> {
+        let rr = self.radius.times(self.radius);
+        let dd = frame.d.dot(frame.d);
+        if !(R::ONE / R::narrow(dd)).is_finite() {
+            // Along the axis: inside for ever or never.
+            return (frame.q.dot(frame.q) <= rr).then_some((-R::INFINITY, R::INFINITY));
+        }
+        let middle = -R::ratio(frame.q.dot(frame.d), dd);
+        let across = frame.q + frame.d * middle;
+        let discriminant = rr - across.dot(across);
+        if !(discriminant >= R::Wide::default()) {
+            return None;
+        }
+        let half = R::sqrt_wide(discriminant) / R::sqrt_wide(dd);
+        Some((middle - half, middle + half))
+    }
+}
+
+/// What shapes around an axis want to know of a ray: the reciprocal of its direction's squared
+/// length.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Nearest<R: Real> {
+    inverse_squared: R,
+}
+
+impl<R: Real> Nearest<R> {
+    /// One division.
+    pub(super) fn of(ray: &Ray<R>) -> Self {
+        let d = ray.direction();
+        Self { inverse_squared: R::ONE / R::narrow(d.dot(d)) }
+    }
+}
+
+/// A ray as an axis sees it: split into the parts across and along, and taken from near the middle.
+#[derive(Clone, Copy)]
+pub(super) struct Frame<R: Real> {
+    /// The ray's parameter at which it is taken; everything else is in steps from there.
+    pub(super) start: R,
+    /// From the axis to the ray's point.
+    pub(super) q: Vec3<R>,
+    /// The direction across the axis.
+    pub(super) d: Vec3<R>,
+    /// The height of the ray's point above the middle.
+    pub(super) z: R,
+    /// The direction along the axis.
+    pub(super) dz: R,
+}
+
+/// Which part of the surface a crossing lies on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    Wall,
+    Base,
+    Apex,
+}
+
+/// A crossing: the step from [`Frame::start`], and where.
+pub(super) type Crossing<R> = (R, Part);
+
+/// Where the ray enters and where it leaves.
+pub(super) type Crossings<R> = [Option<Crossing<R>>; 2];
+
+impl<R: Real> Frame<R> {
+    pub(super) fn of(ray: &Ray<R>, nearest: &Nearest<R>, middle: Vec3<R>, axis: Vec3<R>) -> Self {
+        let f = middle - ray.origin();
+        let d = ray.direction();
+        let start = R::narrow(f.dot(d)) * nearest.inverse_squared;
+        let q = d * start - f;
+        let (z, dz) = (R::narrow(q.dot(axis)), R::narrow(d.dot(axis)));
+        Self { start, q: q - axis * z, d: d - axis * dz, z, dz }
+    }
+
+    /// The same taken from another of the ray's points.
+    pub(super) fn moved(self, step: R) -> Self {
+        Self {
+            start: self.start + step,
+            q: self.q + self.d * step,
+            z: self.z + self.dz * step,
+            ..self
+        }
+    }
+
+    /// Between which steps the height is at most `half` from the middle.
+    pub(super) fn slab(&self, half: R) -> Option<(R, R)> {
+        let (base, apex) = ((-half - self.z) / self.dz, (half - self.z) / self.dz);
+        if self.dz > R::ZERO {
+            Some((base, apex))
+        } else if self.dz < R::ZERO {
+            Some((apex, base))
+        } else {
+            (self.z.abs() <= half).then_some((-R::INFINITY, R::INFINITY))
+        }
+    }
+
+    /// The crossings of a convex wall between two planes of which some are `closed` (base, apex).
+    pub(super) fn ends(&self, wall: (R, R), slab: (R, R), closed: (bool, bool)) -> Crossings<R> {
+        let ((enter, leave), (lo, hi)) = (wall, slab);
+        let upwards = self.dz > R::ZERO;
+        let (first, last) =
+            if upwards { (Part::Base, Part::Apex) } else { (Part::Apex, Part::Base) };
+        let closed = if upwards { closed } else { (closed.1, closed.0) };
+        let near = if enter >= lo {
+            (enter <= hi).then_some((enter, Part::Wall))
+        } else {
+            (closed.0 && lo <= leave).then_some((lo, first))
+        };
+        let far = if leave <= hi {
+            (leave >= lo).then_some((leave, Part::Wall))
+        } else {
+            (closed.1 && hi >= enter).then_some((hi, last))
+        };
+        [near, far]
+    }
+
+    /// The crossing a hit came from: that with this `t`, or the nearer one if [`settle`] moved it.
+    pub(super) fn origin_of(&self, crossings: Crossings<R>, t: R) -> Option<Crossing<R>> {
+        let off = |c: &Crossing<R>| (self.start + c.0 - t).abs();
+        match crossings {
+            [Some(a), Some(b)] => Some(if off(&a) <= off(&b) { a } else { b }),
+            [a, b] => a.or(b),
+        }
+    }
+
+    /// The first crossing that counts.
+    pub(super) fn select(
+        &self,
+        crossings: Crossings<R>,
+        ray: &Ray<R>,
+        bounds: Aabb<R>,
+        (min, max): (R, R),
+    ) -> Option<R> {
+        crossings
+            .into_iter()
+            .flatten()
+            .filter_map(|(step, _)| settle(ray, bounds, self.start + step))
+            .find(|t| *t > min && *t <= max)
+    }
+}
+
+/// Direction and distance from one point to another; a direction of 0 where there is none.
+pub(super) fn axis_between<R: Real>(base: Vec3<R>, apex: Vec3<R>) -> (Vec3<R>, R) {
+    let way = apex - base;
+    (way.unit().unwrap_or_default(), way.length())
+}
+
+/// Whether an axis has length 1 as far as rounding goes.
+pub(super) fn is_unit<R: Real>(axis: Vec3<R>) -> bool {
+    (axis.length() - R::ONE).abs() <= R::ulps(16)
+}
+
+/// The box around two discs, rounded outwards.
+pub(super) fn around_discs<R: Real>(
+    base: Vec3<R>,
+    axis: Vec3<R>,
+    height: R,
+    base_radius: R,
+    apex_radius: R,
+) -> Aabb<R> {
+    // A disc reaches as far along an axis as its normal is tilted away from it. Not by
+    // √(1 - a²), which is noise for an upright one.
+    let tilt = |along: Axis| {
+        let (u, v) = along.others();
+        let (u, v) = (axis.along(u), axis.along(v));
+        R::sqrt_wide(u.times(u) + v.times(v)) * (R::ONE + R::ulps(4))
+    };
+    let tilt = Vec3::<R>::from_array(Axis::ALL.map(tilt));
+    let apex = base + axis * height;
+    let (b, a) = (tilt * base_radius, tilt * apex_radius);
+    let all = Aabb::around([base - b, base + b, apex - a, apex + a]);
+    let all = all.grown(R::ulps(2) * (height + base_radius.max(apex_radius)));
+    Aabb { lo: all.lo.map(R::next_down), hi: all.hi.map(R::next_up) }
+}
+
+impl<R: Real> Shape<R> for Cylinder<R> {
+    type PerRay = Nearest<R>;
+
+    fn per_ray(ray: &Ray<R>) -> Nearest<R> {
+        Nearest::of(ray)
+    }
+
+    /// An axis whose length is not 1 is degenerate too.
+    fn check(&self) -> Result<(), ShapeError> {
+        let reach = self.base.max_abs() + self.height.abs() + self.radius.abs();
+        if !(self.base.is_finite() && self.axis.is_finite() && workable(reach)) {
+            Err(ShapeError::NotFinite)
+        } else if self.radius < R::ZERO || self.height < R::ZERO {
+            Err(ShapeError::Negative)
+        } else if self.height > R::ZERO
+            && R::narrow(self.radius.times(self.radius)) > R::ZERO
+            && is_unit::<R>(self.axis)
+        {
+            Ok(())
+        } else {
+            Err(ShapeError::Degenerate)
+        }
+    }
+
+    fn bounds(&self) -> Aabb<R> {
+        around_discs(self.base, self.axis, self.height, self.radius, self.radius)
+    }
+
+    fn hit(&self, ray: &Ray<R>, nearest: &Nearest<R>, min: R, max: R) -> Option<R> {
+        let (frame, crossings) = self.crossings(ray, nearest)?;
+        if let [None, None] = crossings {
+            return None;
+        }
+        frame.select(crossings, ray, self.bounds(), (min, max))
+    }
+
+    fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
+        let found = self.crossings(ray, &Nearest::of(ray));
+        match found.and_then(|(frame, all)| Some((frame, frame.origin_of(all, t)?))) {
+            Some((_, (_, Part::Base))) => -self.axis,
+            Some((_, (_, Part::Apex))) => self.axis,
+            Some((frame, (step, Part::Wall))) => frame.moved(step).q,
+            None => {
+                let p = ray.at(t) - self.base;
+                p - self.axis * R::narrow(p.dot(self.axis))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::polygon::tests::Random;
+    use crate::shape::testing::{all_hits, ray};
+    use glam::{Vec3, vec3};
+
+    extern crate std;
+    use std::vec::Vec;
+
+    fn upright(from: f32, to: f32) -> Cylinder<f32> {
+        Cylinder::new(vec3(0.0, from, 0.0), vec3(0.0, to, 0.0), 1.0)
+    }
+
+    fn normalized(origin: [f32; 3], d: [f32; 3]) -> Ray<f32> {
+        Ray::new(origin.into(), Vec3::from(d).normalize()).unwrap()
+    }
+
+    #[test]
+    fn published_crossings() {
+        // J. Buck, The Ray Tracer Challenge (2019), chapter 13; endless there, long enough here.
+        let c = upright(-100.0, 100.0);
+        for (o, d) in [
+            ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            ([0.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            ([0.0, 0.0, -5.0], [1.0, 1.0, 1.0]),
+        ] {
+            assert!(all_hits(&c, &normalized(o, d)).is_empty());
+        }
+        assert_eq!(all_hits(&c, &ray([1.0, 0.0, -5.0], [0.0, 0.0, 1.0])), [5.0]);
+        assert_eq!(all_hits(&c, &ray([0.0, 0.0, -5.0], [0.0, 0.0, 1.0])), [4.0, 6.0]);
+        let hits = all_hits(&c, &normalized([0.5, 0.0, -5.0], [0.1, 1.0, 1.0]));
+        for (t, expected) in hits.iter().zip([6.807_98, 7.088_72]) {
+            assert!((t - expected).abs() < 1.0e-5, "{hits:?}"); // as many digits as are printed
+        }
+        assert_eq!(hits.len(), 2);
+    }
+
+    #[test]
+    fn published_counts_with_ends() {
+        let open = upright(1.0, 2.0);
+        for (o, d, count) in [
+            ([0.0, 1.5, 0.0], [0.1, 1.0, 0.0], 0),
+            ([0.0, 3.0, -5.0], [0.0, 0.0, 1.0], 0),
+            ([0.0, 0.0, -5.0], [0.0, 0.0, 1.0], 0),
+            // The book leaves the ends themselves out and counts 0 here; ours belong to it.
+            ([0.0, 2.0, -5.0], [0.0, 0.0, 1.0], 2),
+            ([0.0, 1.0, -5.0], [0.0, 0.0, 1.0], 2),
+            ([0.0, 1.5, -2.0], [0.0, 0.0, 1.0], 2),
+        ] {
+            let hits = all_hits(&open, &ray(o, d)).into_iter().filter(|t| *t > 0.0).count();
+            assert_eq!(hits, count, "{o:?}");
+        }
+        let closed = open.capped();
+        for (o, d) in [
+            ([0.0, 3.0, 0.0], [0.0, -1.0, 0.0]),
+            ([0.0, 3.0, -2.0], [0.0, -1.0, 2.0]),
+            ([0.0, 4.0, -2.0], [0.0, -1.0, 1.0]),
+            ([0.0, 0.0, -2.0], [0.0, 1.0, 2.0]),
+            ([0.0, -1.0, -2.0], [0.0, 1.0, 1.0]),
+        ] {
+            assert_eq!(all_hits(&closed, &ray(o, d)).len(), 2, "{o:?}");
+            assert_eq!(all_hits(&closed, &normalized(o, d)).len(), 2, "{o:?}");
+        }
+    }
+
+    #[test]
+    fn published_normals() {
+        let c = upright(1.0, 2.0).capped();
+        for (o, to, n) in [
+            ([5.0, 1.5, 0.0], [1.0, 1.5, 0.0], Vec3::X),
+            ([0.0, 1.2, -5.0], [0.0, 1.2, -1.0], Vec3::NEG_Z),
+            ([0.0, -1.0, 0.0], [0.0, 1.0, 0.0], Vec3::NEG_Y),
+            ([0.5, -1.0, 0.0], [0.5, 1.0, 0.0], Vec3::NEG_Y),
+            ([0.0, 5.0, 0.5], [0.0, 2.0, 0.5], Vec3::Y),
+        ] {
+            let r = Ray::new(Vec3::from(o), Vec3::from(to) - Vec3::from(o)).unwrap();
+            let t = c.hit(&r, &Nearest::of(&r), 0.0, 2.0).unwrap();
+            assert!((t - 1.0).abs() < 1.0e-6);
+            assert!((c.normal(&r, t).normalize() - n).length() < 1.0e-6, "{o:?}");
+        }
+    }
+
+    #[test]
+    fn no_ray_slips_in_at_the_rim() {
+        // Aimed at the rim from outside towards the middle: always two crossings.
+        let mut random = Random(5);
+        for _ in 0..20_000 {
+            let base = random.vector() * 3.0;
+            let c = Cylinder::<f32>::new(base, base + random.direction(), 0.5).capped();
+            let side = c.axis.cross(random.direction()).normalize() * 0.5;
+            let rim = c.base + side + if random.signed() > 0.0 { c.axis } else { Vec3::ZERO };
+            let middle = c.base + c.axis * 0.5;
+            let inside = middle + random.vector() * 0.1;
+            let r =
+                Ray::new(rim + (rim - inside) * random.within(0.1, 20.0), inside - rim).unwrap();
+            let hits = all_hits(&c, &r);
+            assert_eq!(hits.len(), 2, "{c:?} {r:?}");
+        }
+    }
+
+    /// Wall and discs, each by the textbook, in double precision, with the cosine at each crossing.
+    fn reference(c: &Cylinder<f32>, r: &Ray<f32>, grow: f64) -> Vec<(f64, f64)> {
+        let axis = c.axis.as_dvec3().normalize();
+        let (height, radius) = (f64::from(c.height), f64::from(c.radius));
+        let middle = c.base.as_dvec3() + axis * (height / 2.0);
+        let (half, radius) = (height / 2.0 * grow, radius * grow);
+        let (o, d) = (r.origin().as_dvec3() - middle, r.direction().as_dvec3());
+        let (oz, dz) = (o.dot(axis), d.dot(axis));
+        let (op, dp) = (o - axis * oz, d - axis * dz);
+        let (qa, qb, qc) = (dp.dot(dp), 2.0 * op.dot(dp), op.dot(op) - radius * radius);
+        let mut hits = Vec::new();
+        let delta = qb * qb - 4.0 * qa * qc;
+        if delta >= 0.0 && qa > 0.0 {
+            for sign in [-1.0, 1.0] {
+                let t = (-qb + sign * delta.sqrt()) / (2.0 * qa);
+                if (oz + dz * t).abs() <= half {
+                    hits.push((t, (op + dp * t).dot(dp).abs() / radius / d.length()));
+                }
+            }
+        }
+        for z in [-half, half] {
+            let t = (z - oz) / dz;
+            if c.capped && (op + dp * t).length() <= radius {
+                hits.push((t, dz.abs() / d.length()));
+            }
+        }
+        hits.sort_by(|a, b| a.0.total_cmp(&b.0));
+        hits
+    }
+
+    #[test]
+    fn agrees_with_double_precision() {
+        let mut random = Random(2);
+        let (mut compared, mut off_surface, mut worst) = (0, 0.0_f64, 0.0_f64);
+        for i in 0..20_000_u16 {
+            let base = random.vector() * 5.0;
+            let apex = base + random.direction() * random.within(0.1, 8.0);
+            let c = Cylinder::<f32>::new(base, apex, random.within(0.05, 3.0));
+            let c = if i % 2 == 0 { c } else { c.capped() };
+            assert_eq!(c.check(), Ok(()));
+            let size = c.height + c.radius;
+            let r = random.ray_at((base + apex) * 0.5, size);
+            let hits = all_hits(&c, &r);
+            let bounds = c.bounds().grown(r.slack() * 1.01);
+            assert!(hits.iter().all(|t| bounds.contains(r.at(*t))), "{c:?} {r:?}");
+            let expected = reference(&c, &r, 1.0);
+            let count = |grow| reference(&c, &r, grow).len();
+            if count(0.9999) != expected.len() || count(1.0001) != expected.len() {
+                continue;
+            }
+            assert_eq!(hits.len(), expected.len(), "{i} {c:?} {r:?} {hits:?} {expected:?}");
+            for (t, (expected, cosine)) in hits.iter().zip(expected) {
+                compared += 1;
+                let reach = f64::from((base - r.origin()).length() + size + base.length());
+                let error = (f64::from(*t) - expected).abs() * f64::from(r.direction().length());
+                off_surface = off_surface.max(error * cosine / reach);
+                if cosine > 0.1 {
+                    worst = worst.max(error / reach);
+                }
+                let n = c.normal(&r, *t).normalize();
+                let seen = f64::from(n.dot(r.direction().normalize()).abs());
+                assert!((seen - cosine).abs() < 3.0e-3, "{seen} {cosine} {c:?} {r:?}");
+            }
+        }
+        std::println!("{compared} crossings, off {off_surface:e}, in t {worst:e}");
+        assert!(compared > 8000);
+        assert!(off_surface < 4.0e-7, "{off_surface:e}");
+        assert!(worst < 1.0e-6, "{worst:e}");
+    }
+
+    #[test]
+    fn bounds_are_tight() {
+        let near = |a: Vec3, b: Vec3| (a - b).abs().max_element() < 4.0e-6;
+        let b = upright(1.0, 2.0).bounds();
+        assert!(near(b.lo, vec3(-1.0, 1.0, -1.0)) && near(b.hi, vec3(1.0, 2.0, 1.0)), "{b:?}");
+        let c = Cylinder::<f32>::new(Vec3::ZERO, vec3(3.0, 4.0, 0.0), 1.0);
+        let b = c.bounds();
+        assert!(near(b.lo, vec3(-0.8, -0.6, -1.0)) && near(b.hi, vec3(3.8, 4.6, 1.0)), "{b:?}");
+        // And hold the true surface, whatever the direction.
+        let mut random = Random(9);
+        for _ in 0..2000 {
+            let base = random.vector() * 5.0;
+            let c = Cylinder::<f32>::new(base, base + random.direction() * 5.0, 0.7);
+            let (b, axis) = (c.bounds(), c.axis.as_dvec3().normalize());
+            let (u, v) = axis.any_orthonormal_pair();
+            for step in 0..64_u8 {
+                let (sin, cos) = (f64::from(step) * core::f64::consts::PI / 32.0).sin_cos();
+                let rim = c.base.as_dvec3() + (u * sin + v * cos) * f64::from(c.radius);
+                for p in [rim, rim + axis * f64::from(c.height)] {
+                    assert!(p.cmpge(b.lo.as_dvec3()).all() && p.cmple(b.hi.as_dvec3()).all());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn degenerate_cylinders_are_refused() {
+        let check = |to: f32, r| Cylinder::<f32>::new(Vec3::ZERO, Vec3::X * to, r).check();
+        assert_eq!(check(1.0, 0.0), Err(ShapeError::Degenerate));
+        assert_eq!(check(0.0, 1.0), Err(ShapeError::Degenerate));
+        assert_eq!(check(1.0, -1.0), Err(ShapeError::Negative));
+        assert_eq!(check(1.0, f32::NAN), Err(ShapeError::NotFinite));
+        assert_eq!(check(f32::INFINITY, 1.0), Err(ShapeError::NotFinite));
+        assert_eq!(check(1.0e13, 1.0), Err(ShapeError::NotFinite));
+        assert_eq!(check(-1.0, 1.0), Ok(()));
+        let parts = |axis, height| Cylinder::<f32>::from_parts(Vec3::ZERO, axis, height, 1.0, true);
+        assert_eq!(parts(Vec3::X * 1.01, 1.0).check(), Err(ShapeError::Degenerate));
+        assert_eq!(parts(Vec3::X, -1.0).check(), Err(ShapeError::Negative));
+        assert_eq!(parts(Vec3::NAN, 1.0).check(), Err(ShapeError::NotFinite));
+        assert_eq!(parts(Vec3::X, 1.0).check(), Ok(()));
+    }
+}
