@@ -1,5 +1,16 @@
 //! Ray tracing in kibibytes.
 #![no_std]
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::indexing_slicing,
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::unreachable,
+        clippy::integer_division_remainder_used
+    )
+)]
 
 pub mod accel;
 pub mod display;

@@ -1,6 +1,6 @@
 //! Square roots, correctly rounded on every target, hence the same bits.
 //!
-//! `libm` uses the processor's instruction on x86-64 and AArch64 but computes in software on a
+//! `libm` uses the processor's instruction on x86-64 and `AArch64` but computes in software on a
 //! Cortex-M4F (45 instructions instead of 1). Calling the C symbol instead lets the compiler emit
 //! `vsqrt.f32` there and `f32.sqrt` in wasm; where a core has neither, `compiler_builtins` brings
 //! the software routine under that name.
