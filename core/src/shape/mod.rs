@@ -10,12 +10,18 @@
 //!   seen edge-on has no well-defined `t`), it ends in [`settle`].
 //! * A shape that passed [`Shape::check`] is never hit at a `t` that is not a number.
 
+mod r#box;
+mod cone;
 mod cylinder;
+mod plane;
 mod polygon;
 mod sphere;
 mod triangle;
 
+pub use r#box::AxisBox;
+pub use cone::Cone;
 pub use cylinder::{Cylinder, Nearest};
+pub use plane::Plane;
 pub use polygon::Polygon;
 pub use sphere::{Length, Sphere};
 pub use triangle::{Shear, Triangle};

@@ -1,0 +1,418 @@
+//! The cone and the truncated cone, open or closed.
+//!
+//! The wall is where q² = radius(height)²: a quadratic equation whose roots are formed without
+//! cancellation (q = b ± √Δ, the roots q/a and c/q, Δ as a difference of full products; Press et
+//! al., Numerical Recipes §5.6; W. Kahan). Before that the ray is taken from its point nearest to
+//! the middle, and then from the place between the ends where the equation has its vertex: rays
+//! through the tip, where b² and a c agree, are as exact there as any. A ray parallel to the wall
+//! has a = 0 and one root at infinity. The ends are planes as for the cylinder.
+
+use super::cylinder::{Crossings, Frame, Nearest, Part, around_discs, axis_between, is_unit};
+use super::{Shape, ShapeError, workable};
+use crate::geom::{Aabb, Ray};
+use crate::num::{Real, Vec3, Vector};
+
+/// A cone, or what two planes across its axis leave of one; 40 bytes in `f32`.
+///
+/// Its wall counts from outside and from inside. Both ends belong to it, and so does the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Cone<R: Real> {
+    /// The middle of its lower end.
+    pub base: Vec3<R>,
+    /// The direction to the other end, of length 1.
+    pub axis: Vec3<R>,
+    /// The distance between the ends, greater than 0.
+    pub height: R,
+    /// Radius at height 0, not negative.
+    pub base_radius: R,
+    /// Radius at the other end, not negative; 0 makes it a tip. Not both radii are 0.
+    pub apex_radius: R,
+    /// Whether discs close the ends.
+    pub capped: bool,
+}
+
+impl<R: Real> Cone<R> {
+    /// An open cone between the middles of its ends. Where they coincide the axis is 0, and
+    /// [`Shape::check`] refuses it.
+    pub fn new(base: Vec3<R>, apex: Vec3<R>, base_radius: R, apex_radius: R) -> Self {
+        let (axis, height) = axis_between::<R>(base, apex);
+        Self { base, axis, height, base_radius, apex_radius, capped: false }
+    }
+
+    /// From what it consists of; for constants. `axis` has length 1.
+    pub const fn from_parts(
+        base: Vec3<R>,
+        axis: Vec3<R>,
+        height: R,
+        base_radius: R,
+        apex_radius: R,
+        capped: bool,
+    ) -> Self {
+        Self { base, axis, height, base_radius, apex_radius, capped }
+    }
+
+    /// The same with discs on its ends.
+    pub fn capped(self) -> Self {
+        Self { capped: true, ..self }
+    }
+
+    /// How much the radius grows in a unit of height.
+    fn growth(&self) -> R {
+        (self.apex_radius - self.base_radius) / self.height
+    }
+
+    fn crossings(&self, ray: &Ray<R>, nearest: &Nearest<R>) -> Option<(Frame<R>, Crossings<R>)> {
+        let half = self.height * R::HALF;
+        let frame = Frame::of(ray, nearest, self.base + self.axis * half, self.axis);
+        let slab = frame.slab(half)?;
+        let (frame, slab, wall) = self.wall(frame, slab)?;
+        // A tip is a disc without extent; taken for one, it leaves no hole to slip through.
+        let closed = |radius| self.capped || radius == R::ZERO;
+        let closed = (closed(self.base_radius), closed(self.apex_radius));
+        Some((frame, frame.ends(wall, slab, closed)))
+    }
+
+    /// Between which steps the ray is inside the wall, and the frame that the steps count from.
+    #[expect(clippy::type_complexity, reason = "three things that only make sense together")]
+    fn wall(&self, frame: Frame<R>, slab: (R, R)) -> Option<(Frame<R>, (R, R), (R, R))> {
+        let zero = R::Wide::default();
+        let growth = self.growth();
+        let middle = (self.base_radius + self.apex_radius) * R::HALF;
+        // The radius at the ray's height, there and a step further on.
+        let radius = |frame: &Frame<R>| middle + growth * frame.z;
+        let step = growth * frame.dz;
+        // Inside is where a s² - 2 b s + c <= 0.
+        let a = frame.d.dot(frame.d) - step.times(step);
+        let b = |frame: &Frame<R>| step.times(radius(frame)) - frame.q.dot(frame.d);
+        let vertex = R::ratio(b(&frame), a).clamp(slab.0, slab.1);
+        let vertex = if vertex.is_finite() { vertex } else { R::ZERO };
+        let (frame, slab) = (frame.moved(vertex), (slab.0 - vertex, slab.1 - vertex));
+
+        let (b, r) = (b(&frame), radius(&frame));
+        let c = frame.q.dot(frame.q) - r.times(r);
+        let root = match R::root(a, b, c) {
+            Some(root) => root,
+            // Steeper than the wall, a ray crosses it whatever the rounding says.
+            None if a < zero => zero,
+            None => return None,
+        };
+        let q = if b >= zero { b + root } else { b - root };
+        let (lo, hi) = if q == zero {
+            if a == zero {
+                // Along the wall: inside or on it for ever, or never.
+                (c <= zero).then_some((-R::INFINITY, R::INFINITY))?
+            } else {
+                (R::ZERO, R::ZERO)
+            }
+        } else {
+            let (s, t) = (R::ratio(q, a), R::ratio(c, q));
+            if s <= t { (s, t) } else { (t, s) }
+        };
+        let wall = if a >= zero {
+            (lo, hi)
+        } else if step > R::ZERO {
+            // Between the roots it is outside, and before them inside the mirrored cone.
+            (hi, R::INFINITY)
+        } else {
+            (-R::INFINITY, lo)
+        };
+        (wall.0 <= wall.1).then_some((frame, slab, wall))
+    }
+}
+
+impl<R: Real> Shape<R> for Cone<R> {
+    type PerRay = Nearest<R>;
+
+    fn per_ray(ray: &Ray<R>) -> Nearest<R> {
+        Nearest::of(ray)
+    }
+
+    /// An axis whose length is not 1 is degenerate too.
+    fn check(&self) -> Result<(), ShapeError> {
+        let radii = self.base_radius.abs() + self.apex_radius.abs();
+        let reach = self.base.max_abs() + self.height.abs() + radii;
+        if !(self.base.is_finite() && self.axis.is_finite() && workable(reach)) {
+            Err(ShapeError::NotFinite)
+        } else if self.base_radius < R::ZERO || self.apex_radius < R::ZERO || self.height < R::ZERO
+        {
+            Err(ShapeError::Negative)
+        } else if !(self.height > R::ZERO
+            && R::narrow(radii.times(radii)) > R::ZERO
+            && is_unit::<R>(self.axis))
+        {
+            Err(ShapeError::Degenerate)
+        } else if workable(self.growth()) {
+            Ok(())
+        } else {
+            Err(ShapeError::NotFinite)
+        }
+    }
+
+    fn bounds(&self) -> Aabb<R> {
+        around_discs(self.base, self.axis, self.height, self.base_radius, self.apex_radius)
+    }
+
+    fn hit(&self, ray: &Ray<R>, nearest: &Nearest<R>, min: R, max: R) -> Option<R> {
+        let (frame, crossings) = self.crossings(ray, nearest)?;
+        if let [None, None] = crossings {
+            return None;
+        }
+        frame.select(crossings, ray, self.bounds(), (min, max))
+    }
+
+    fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
+        let found = self.crossings(ray, &Nearest::of(ray));
+        let across = match found.and_then(|(frame, all)| Some((frame, frame.origin_of(all, t)?))) {
+            Some((_, (_, Part::Base))) => return -self.axis,
+            Some((_, (_, Part::Apex))) => return self.axis,
+            Some((frame, (step, Part::Wall))) => frame.moved(step).q,
+            None => {
+                let p = ray.at(t) - self.base;
+                p - self.axis * R::narrow(p.dot(self.axis))
+            }
+        };
+        // At the tip no direction across the axis is left; then along it.
+        across.unit().unwrap_or_default() - self.axis * self.growth()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::polygon::tests::Random;
+    use crate::shape::testing::{all_hits, ray};
+    use glam::{Vec3, vec3};
+
+    extern crate std;
+    use std::vec::Vec;
+
+    fn normalized(origin: [f32; 3], d: [f32; 3]) -> Ray<f32> {
+        Ray::new(origin.into(), Vec3::from(d).normalize()).unwrap()
+    }
+
+    /// x² + z² = y² up to a height, upwards and downwards from the tip at 0.
+    fn double(height: f32) -> [Cone<f32>; 2] {
+        [height, -height].map(|y| Cone::new(vec3(0.0, y, 0.0), Vec3::ZERO, height, 0.0))
+    }
+
+    fn both(cones: &[Cone<f32>; 2], r: &Ray<f32>) -> Vec<f32> {
+        let mut hits: Vec<f32> = cones.iter().flat_map(|c| all_hits(c, r)).collect();
+        hits.sort_by(f32::total_cmp);
+        hits
+    }
+
+    fn close(hits: &[f32], expected: &[f32]) {
+        assert_eq!(hits.len(), expected.len(), "{hits:?}");
+        for (t, e) in hits.iter().zip(expected) {
+            // As many digits as are printed, and the rounding of the numbers themselves.
+            assert!((t - e).abs() < 1.0e-5 + e * 4.0e-7, "{hits:?}");
+        }
+    }
+
+    #[test]
+    fn published_crossings() {
+        // J. Buck, The Ray Tracer Challenge (2019), chapter 13; endless there, long enough here.
+        let cones = double(40.0);
+        // Through the tip, which is the end of both halves: each is touched once.
+        close(&both(&cones, &ray([0.0, 0.0, -5.0], [0.0, 0.0, 1.0])), &[5.0, 5.0]);
+        // A tangent, a double root: one touch. Printed as 8.66025 for a direction of length 1, which
+        // rounding takes off the surface.
+        close(&both(&cones, &ray([0.0, 0.0, -5.0], [1.0, 1.0, 1.0])), &[5.0]);
+        close(
+            &both(&cones, &normalized([1.0, 1.0, -5.0], [-0.5, -1.0, 1.0])),
+            &[4.550_06, 49.449_94],
+        );
+        close(&both(&cones, &normalized([0.0, 0.0, -1.0], [0.0, 1.0, 1.0])), &[0.353_55]);
+    }
+
+    #[test]
+    fn published_counts_with_ends() {
+        let cones = double(0.5).map(Cone::capped);
+        for (o, d, count) in [
+            ([0.0, 0.0, -5.0], [0.0, 1.0, 0.0], 0),
+            ([0.0, 0.0, -0.25], [0.0, 1.0, 1.0], 2),
+            ([0.0, 0.0, -0.25], [0.0, 1.0, 0.0], 4),
+        ] {
+            assert_eq!(both(&cones, &ray(o, d)).len(), count, "{o:?}");
+            assert_eq!(both(&cones, &normalized(o, d)).len(), count, "{o:?}");
+        }
+    }
+
+    #[test]
+    fn no_ray_slips_through_the_tip() {
+        // Steep rays through the tip of open cones: from inside they must not leave without a hit,
+        // whichever end it is.
+        let mut random = Random(8);
+        for i in 0..20_000_u16 {
+            let base = random.vector() * 3.0;
+            let tip = base + random.direction() * random.within(0.5, 4.0);
+            let cone = match i % 2 {
+                0 => Cone::<f32>::new(base, tip, 1.0, 0.0),
+                _ => Cone::<f32>::new(tip, base, 0.0, 1.0),
+            };
+            let inside = base + (tip - base) * random.within(0.1, 0.5);
+            let from = inside + random.vector() * 0.05;
+            let r = Ray::new(from, (tip - from) * random.within(0.1, 2.0)).unwrap();
+            let out: Vec<f32> = all_hits(&cone, &r).into_iter().filter(|t| *t > 0.0).collect();
+            assert_eq!(out.len(), 1, "{cone:?} {r:?}");
+            let off = (r.at(out[0]) - tip).length();
+            assert!(off < 2.0e-5, "{off}");
+        }
+    }
+
+    #[test]
+    fn closed_cones_have_two_crossings_or_none_and_their_rims_no_gap() {
+        let mut random = Random(10);
+        for i in 0..20_000_u16 {
+            let base = random.vector() * 3.0;
+            let (a, b) = if i % 3 == 0 { (0.5, 0.5) } else { (0.4, 0.8 * f32::from(i % 3 - 1)) };
+            let cone = Cone::<f32>::new(base, base + random.direction(), a, b).capped();
+            let side = cone.axis.cross(random.direction()).normalize();
+            let rim = base + if i % 2 == 0 { side * a } else { cone.axis * cone.height + side * b };
+            let inside = base + cone.axis * 0.5 + random.vector() * 0.05;
+            let away = random.within(0.1, 20.0);
+            let r = Ray::new(rim + (rim - inside) * away, inside - rim).unwrap();
+            assert_eq!(all_hits(&cone, &r).len(), 2, "{cone:?} {r:?}");
+        }
+    }
+
+    #[test]
+    fn along_the_axis_and_along_the_wall() {
+        let [up, _] = double(1.0);
+        // Through the tip along the axis: open, only the tip; closed, the tip and the disc.
+        let r = ray([0.0, 3.0, 0.0], [0.0, -1.0, 0.0]);
+        assert_eq!(all_hits(&up, &r), [3.0]);
+        assert_eq!(all_hits(&up.capped(), &r), [2.0, 3.0]);
+        // Inside the wall itself an open cone has no crossing, a closed one enters and leaves.
+        let r = ray([2.0, 2.0, 0.0], [-1.0, -1.0, 0.0]);
+        assert_eq!(all_hits(&up.capped(), &r), [1.0, 2.0]);
+        // A cone that does not narrow is a cylinder.
+        let tube = Cone::<f32>::new(Vec3::ZERO, Vec3::Y, 1.0, 1.0);
+        assert_eq!(all_hits(&tube, &ray([0.0, 0.5, -5.0], [0.0, 0.0, 1.0])), [4.0, 6.0]);
+        let r = ray([0.5, 3.0, 0.0], [0.0, -1.0, 0.0]);
+        assert!(all_hits(&tube, &r).is_empty());
+        assert_eq!(all_hits(&tube.capped(), &r), [2.0, 3.0]);
+        assert!(all_hits(&tube.capped(), &ray([1.5, 3.0, 0.0], [0.0, -1.0, 0.0])).is_empty());
+    }
+
+    #[test]
+    fn published_normals() {
+        // At (1, 1, 1) and (-1, -1, 0) of the double cone.
+        let [up, down] = double(2.0);
+        for (cone, p, n) in [
+            (up, vec3(1.0, 2.0_f32.sqrt(), 1.0), vec3(1.0, -(2.0_f32.sqrt()), 1.0)),
+            (down, vec3(-1.0, -1.0, 0.0), vec3(-1.0, 1.0, 0.0)),
+        ] {
+            let r = Ray::new(p + n, -n).unwrap();
+            let t = cone.hit(&r, &Nearest::of(&r), 0.0, 2.0).unwrap();
+            assert!((t - 1.0).abs() < 1.0e-6);
+            assert!((cone.normal(&r, t).normalize() - n.normalize()).length() < 1.0e-6);
+        }
+        let r = ray([0.1, 5.0, 0.0], [0.0, -1.0, 0.0]);
+        assert_eq!(up.capped().normal(&r, 3.0), Vec3::Y);
+        let r = ray([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]);
+        assert_eq!(up.normal(&r, 1.0).normalize(), Vec3::NEG_Y);
+    }
+
+    /// Wall and discs, each by the textbook, in double precision, with the cosine at each crossing.
+    fn reference(c: &Cone<f32>, r: &Ray<f32>, grow: f64) -> Vec<(f64, f64)> {
+        let axis = c.axis.as_dvec3().normalize();
+        let height = f64::from(c.height);
+        let growth = (f64::from(c.apex_radius) - f64::from(c.base_radius)) / height;
+        let mean = (f64::from(c.apex_radius) + f64::from(c.base_radius)) / 2.0;
+        // Outwards by the same distance everywhere, about.
+        let moved = (grow - 1.0) * (height + mean);
+        let half = height / 2.0 + moved;
+        let mean = mean + moved * (1.0 + growth * growth).sqrt();
+        let middle = c.base.as_dvec3() + axis * (height / 2.0);
+        let (o, d) = (r.origin().as_dvec3() - middle, r.direction().as_dvec3());
+        let (oz, dz) = (o.dot(axis), d.dot(axis));
+        let (op, dp) = (o - axis * oz, d - axis * dz);
+        let at = mean + growth * oz;
+        let qa = dp.dot(dp) - growth * growth * dz * dz;
+        let qb = 2.0 * (op.dot(dp) - at * growth * dz);
+        let qc = op.dot(op) - at * at;
+        let mut hits = Vec::new();
+        let delta = qb * qb - 4.0 * qa * qc;
+        for sign in [-1.0, 1.0] {
+            let t = (-qb + sign * delta.sqrt()) / (2.0 * qa);
+            let z = oz + dz * t;
+            if z.abs() <= half && mean + growth * z >= 0.0 {
+                let n = (op + dp * t).normalize() - axis * growth;
+                hits.push((t, n.normalize().dot(d.normalize()).abs()));
+            }
+        }
+        for z in [-half, half] {
+            let t = (z - oz) / dz;
+            if c.capped && (op + dp * t).length() <= mean + growth * z {
+                hits.push((t, dz.abs() / d.length()));
+            }
+        }
+        hits.sort_by(|a, b| a.0.total_cmp(&b.0));
+        hits
+    }
+
+    #[test]
+    fn agrees_with_double_precision() {
+        let mut random = Random(12);
+        let (mut compared, mut off_surface, mut worst) = (0, 0.0_f64, 0.0_f64);
+        for i in 0..20_000_u16 {
+            let base = random.vector() * 5.0;
+            let apex = base + random.direction() * random.within(0.1, 8.0);
+            let (a, b) = (random.within(0.05, 3.0), random.within(0.0, 3.0));
+            let (a, b) = match i % 5 {
+                0 => (a, 0.0),
+                1 => (0.0, a),
+                _ => (a, b),
+            };
+            let c = Cone::<f32>::new(base, apex, a, b);
+            let c = if i % 2 == 0 { c } else { c.capped() };
+            assert_eq!(c.check(), Ok(()));
+            let size = c.height + a.max(b);
+            let r = random.ray_at((base + apex) * 0.5, size);
+            let hits = all_hits(&c, &r);
+            let bounds = c.bounds().grown(r.slack() * 1.01);
+            assert!(hits.iter().all(|t| bounds.contains(r.at(*t))), "{c:?} {r:?}");
+            let expected = reference(&c, &r, 1.0);
+            let count = |grow| reference(&c, &r, grow).len();
+            if count(0.9999) != expected.len() || count(1.0001) != expected.len() {
+                continue;
+            }
+            assert_eq!(hits.len(), expected.len(), "{i} {c:?} {r:?} {hits:?} {expected:?}");
+            for (t, (expected, cosine)) in hits.iter().zip(expected) {
+                compared += 1;
+                let reach = f64::from((base - r.origin()).length() + size + base.length());
+                let error = (f64::from(*t) - expected).abs() * f64::from(r.direction().length());
+                off_surface = off_surface.max(error * cosine / reach);
+                if cosine > 0.1 {
+                    worst = worst.max(error / reach);
+                    let n = c.normal(&r, *t).normalize();
+                    let seen = f64::from(n.dot(r.direction().normalize()).abs());
+                    assert!((seen - cosine).abs() < 3.0e-3, "{seen} {cosine} {c:?} {r:?}");
+                }
+            }
+        }
+        std::println!("{compared} crossings, off {off_surface:e}, in t {worst:e}");
+        assert!(compared > 8000);
+        assert!(off_surface < 4.0e-7, "{off_surface:e}");
+        assert!(worst < 1.0e-6, "{worst:e}");
+    }
+
+    #[test]
+    fn degenerate_cones_are_refused() {
+        let check = |to: f32, a, b| Cone::<f32>::new(Vec3::ZERO, Vec3::X * to, a, b).check();
+        assert_eq!(check(1.0, 1.0, 0.0), Ok(()));
+        assert_eq!(check(1.0, 0.0, 1.0), Ok(()));
+        assert_eq!(check(1.0, 0.0, 0.0), Err(ShapeError::Degenerate));
+        assert_eq!(check(0.0, 1.0, 0.5), Err(ShapeError::Degenerate));
+        assert_eq!(check(1.0, -1.0, 2.0), Err(ShapeError::Negative));
+        assert_eq!(check(1.0, 1.0, -2.0), Err(ShapeError::Negative));
+        assert_eq!(check(1.0, f32::NAN, 0.0), Err(ShapeError::NotFinite));
+        assert_eq!(check(1.0, 0.0, 1.0e13), Err(ShapeError::NotFinite));
+        assert_eq!(check(1.0e-15, 0.0, 1.0), Err(ShapeError::NotFinite));
+        assert_eq!(check(f32::NAN, 0.0, 1.0), Err(ShapeError::NotFinite));
+        let parts = Cone::<f32>::from_parts(Vec3::ZERO, Vec3::X * 2.0, 1.0, 1.0, 0.0, false);
+        assert_eq!(parts.check(), Err(ShapeError::Degenerate));
+    }
+}
