@@ -7,8 +7,7 @@
         clippy::unwrap_used,
         clippy::expect_used,
         clippy::panic,
-        clippy::unreachable,
-        clippy::integer_division_remainder_used
+        clippy::unreachable
     )
 )]
 

@@ -3,7 +3,7 @@
 //! Walls are computed from their number by one multiplication and never accumulated, and a cell is
 //! known by its numbers, not by where a point happens to lie: so neither steps nor shapes can drift.
 
-use crate::geom::{Aabb, Slopes};
+use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Axis, Real, Vec3, Vector};
 use crate::scene::{Scene, Shapes};
 
@@ -62,14 +62,47 @@ impl<R: Real> Lattice<R> {
         (self.cell_of(bounds.lo), self.cell_of(bounds.hi))
     }
 
-    /// The parameter at which a ray meets wall number `i` along `axis`; cell `i` lies behind it.
-    /// Beyond every distance when the ray does not move along the axis.
-    pub(crate) fn crossing(&self, slopes: &Slopes<R>, axis: Axis, i: i32) -> R {
-        if slopes.sign(axis) == 0 {
-            return R::INFINITY;
-        }
-        let wall = self.bounds.lo.along(axis) + self.cell.along(axis) * R::from_i32(i);
-        slopes.crossing(axis, wall)
+    /// A ray seen along each of the three axes.
+    pub(crate) fn tracks(&self, ray: &Ray<R>, slopes: &Slopes<R>) -> [Track<R>; 3] {
+        Axis::ALL.map(|axis| {
+            let sign = slopes.sign(axis);
+            if sign == 0 {
+                // Every wall is infinitely far away.
+                let (lo, inverse) = (R::INFINITY, R::ONE);
+                return Track { sign, lo, cell: R::ZERO, origin: R::ZERO, inverse };
+            }
+            Track {
+                sign,
+                lo: self.bounds.lo.along(axis),
+                cell: self.cell.along(axis),
+                origin: ray.origin().along(axis),
+                inverse: slopes.inverse().along(axis),
+            }
+        })
+    }
+}
+
+/// A ray's way along one axis of a lattice.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Track<R> {
+    /// Whether cell numbers grow (1), shrink (-1) or stay (0).
+    pub(crate) sign: i32,
+    lo: R,
+    cell: R,
+    origin: R,
+    inverse: R,
+}
+
+impl<R: Real> Track<R> {
+    /// The parameter at which the ray meets wall number `i`; cell `i` lies behind it. Beyond every
+    /// distance when the ray does not move along this axis.
+    pub(crate) fn crossing(&self, i: i32) -> R {
+        (self.lo + self.cell * R::from_i32(i) - self.origin) * self.inverse
+    }
+
+    /// The parameter at which the ray leaves the cells `first..first + count`.
+    pub(crate) fn exit(&self, first: i32, count: i32) -> R {
+        self.crossing(if self.sign > 0 { first + count } else { first })
     }
 }
 

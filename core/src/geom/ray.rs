@@ -99,6 +99,11 @@ impl<R: Real> Slopes<R> {
         i32::from(inverse > R::ZERO) - i32::from(inverse < R::ZERO)
     }
 
+    /// The reciprocals; 0 where the ray stays.
+    pub(crate) fn inverse(&self) -> Vec3<R> {
+        self.inverse
+    }
+
     /// The parameter at which the coordinate along `axis` is `wall`; of no meaning where the ray
     /// stays ([`Slopes::sign`] 0).
     pub fn crossing(&self, axis: Axis, wall: R) -> R {

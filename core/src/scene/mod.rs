@@ -4,12 +4,12 @@
 mod camera;
 mod material;
 mod shapes;
-//mod solids;
+mod solids;
 
 pub use camera::{Camera, View, ViewError};
 pub use material::{Light, Material, Paint};
 pub use shapes::Shapes;
-//pub use solids::{Solids, Triangles};
+pub use solids::{Solids, Triangles};
 
 use crate::geom::{Aabb, Ray, SLACK};
 use crate::num::{Real, Vec3, Vector};

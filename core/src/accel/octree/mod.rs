@@ -19,7 +19,7 @@ pub use code::DEEPEST;
 use super::lattice::Lattice;
 use super::{Accel, Id, Visitor};
 use crate::geom::{Ray, Slopes};
-use crate::num::{Axis, Real};
+use crate::num::Real;
 use crate::probe::Probe;
 use code::Code;
 
@@ -131,6 +131,7 @@ impl<R: Real, I: Id> Accel<R> for Octree<'_, R, I> {
         let Some((enter, _)) = self.lattice.clip(&slopes, visitor.start(), visitor.limit()) else {
             return;
         };
+        let [x, y, z] = self.lattice.tracks(ray, &slopes);
         let mut cell = self.lattice.cell_of(ray.at(enter));
         let mut t = enter;
         let edge = 1 << self.deepest;
@@ -142,40 +143,38 @@ impl<R: Real, I: Id> Accel<R> for Octree<'_, R, I> {
                 visitor.visit(list.iter().map(|id| id.get()));
             }
 
-            // The walls behind which the leaf ends, and the first of them that the ray meets.
+            // The leaf, and the first of its walls that the ray meets.
             let size = 1 << shift;
-            let base = cell.map(|c| c >> shift << shift);
-            let [bx, by, bz] = base;
-            let ahead = |axis, base: i32| {
-                let wall = if slopes.sign(axis) > 0 { base + size } else { base };
-                self.lattice.crossing(&slopes, axis, wall)
-            };
-            let (tx, ty, tz) = (ahead(Axis::X, bx), ahead(Axis::Y, by), ahead(Axis::Z, bz));
-            let (axis, exit) = if tx <= ty && tx <= tz {
-                (Axis::X, tx)
+            let [bx, by, bz] = cell.map(|c| c >> shift << shift);
+            let (tx, ty, tz) = (x.exit(bx, size), y.exit(by, size), z.exit(bz, size));
+            let exit = if tx <= ty && tx <= tz {
+                tx
             } else if ty <= tz {
-                (Axis::Y, ty)
+                ty
             } else {
-                (Axis::Z, tz)
+                tz
             };
             // Rounding may put a wall a little before the one just passed; never go back.
             t = t.max(exit);
-            if visitor.limit() <= t || slopes.sign(axis) == 0 {
+            if visitor.limit() <= t {
                 return;
             }
 
+            // Exactly one cell beyond that wall, and within the leaf in the other directions.
             let [px, py, pz] = self.lattice.cell_of(ray.at(t));
-            let beyond = |this, at: i32, base: i32| {
-                if this != axis {
-                    at.clamp(base, base + size - 1)
-                } else if slopes.sign(axis) > 0 {
-                    base + size
-                } else {
-                    base - 1
-                }
+            let within = |p: i32, base: i32| p.clamp(base, base + size - 1);
+            let beyond = |sign: i32, base: i32| if sign > 0 { base + size } else { base - 1 };
+            cell = [within(px, bx), within(py, by), within(pz, bz)];
+            let [cx, cy, cz] = &mut cell;
+            let (c, sign, base) = if tx <= ty && tx <= tz {
+                (cx, x.sign, bx)
+            } else if ty <= tz {
+                (cy, y.sign, by)
+            } else {
+                (cz, z.sign, bz)
             };
-            cell = [beyond(Axis::X, px, bx), beyond(Axis::Y, py, by), beyond(Axis::Z, pz, bz)];
-            if cell.iter().any(|c| *c < 0 || *c >= edge) {
+            *c = beyond(sign, base);
+            if sign == 0 || *c < 0 || *c >= edge {
                 return;
             }
         }
