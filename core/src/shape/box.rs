@@ -83,7 +83,7 @@ impl<R: Real> Shape<R> for AxisBox<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::polygon::tests::Random;
+    use crate::shape::polygon::tests::{Random, only_numbers_are_hits};
     use crate::shape::testing::{all_hits, ray};
     use glam::{Vec3, vec3};
 
@@ -227,6 +227,12 @@ mod tests {
         std::println!("{hits} crossings, worst {worst:e}");
         assert!(hits > 8000);
         assert!(worst < 1.0e-6, "{worst:e}");
+    }
+
+    #[test]
+    fn only_numbers_are_hits_of_boxes() {
+        only_numbers_are_hits(&CUBE);
+        only_numbers_are_hits(&AxisBox::<f32>::new(vec3(-0.3, 0.5, 0.0), vec3(0.7, 0.5, 1.0)));
     }
 
     #[test]

@@ -192,7 +192,7 @@ impl<R: Real> Shape<R> for Cone<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::polygon::tests::Random;
+    use crate::shape::polygon::tests::{Random, only_numbers_are_hits};
     use crate::shape::testing::{all_hits, ray};
     use glam::{Vec3, vec3};
 
@@ -412,6 +412,40 @@ mod tests {
         assert!(compared > 8000);
         assert!(off_surface < 4.0e-7, "{off_surface:e}");
         assert!(worst < 1.0e-6, "{worst:e}");
+    }
+
+    #[test]
+    fn almost_parallel_to_the_wall_and_far_from_it() {
+        // Inside, a ray that leans by little against the opposite wall has one well-defined crossing
+        // near the tip, and another far off or none.
+        let mut random = Random(14);
+        let mut worst = 0.0_f64;
+        for _ in 0..20_000 {
+            let base = random.vector() * 3.0;
+            let cone = Cone::<f32>::new(base, base + random.direction() * 2.0, 1.0, 0.0);
+            let side = cone.axis.cross(random.direction()).normalize();
+            let wall = cone.axis * 2.0 - side + random.vector() * 1.0e-3;
+            let from = base + side * random.within(0.5, 0.9);
+            let r = Ray::new(from, wall).unwrap();
+            let expected = reference(&cone, &r, 1.0);
+            let hits = all_hits(&cone, &r);
+            for (e, cosine) in expected.iter().filter(|(t, _)| *t > 0.1 && *t < 0.9) {
+                let off = hits.iter().map(|t| (f64::from(*t) - e).abs()).fold(f64::MAX, f64::min);
+                worst = worst.max(off * cosine * f64::from(wall.length()) / 6.0);
+            }
+        }
+        std::println!("worst {worst:e}");
+        assert!(worst < 4.0e-7, "{worst:e}");
+    }
+
+    #[test]
+    fn only_numbers_are_hits_of_cones() {
+        let [up, down] = double(1.0);
+        let oblique = Cone::<f32>::new(Vec3::ZERO, vec3(0.2, 0.5, -1.0), 0.25, 0.75);
+        for c in [up, down, oblique] {
+            only_numbers_are_hits(&c);
+            only_numbers_are_hits(&c.capped());
+        }
     }
 
     #[test]

@@ -287,7 +287,7 @@ impl<R: Real> Shape<R> for Cylinder<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::polygon::tests::Random;
+    use crate::shape::polygon::tests::{Random, only_numbers_are_hits};
     use crate::shape::testing::{all_hits, ray};
     use glam::{Vec3, vec3};
 
@@ -477,6 +477,14 @@ mod tests {
                     assert!(p.cmpge(b.lo.as_dvec3()).all() && p.cmple(b.hi.as_dvec3()).all());
                 }
             }
+        }
+    }
+
+    #[test]
+    fn only_numbers_are_hits_of_cylinders() {
+        for c in [upright(-0.5, 1.0), Cylinder::new(Vec3::ZERO, vec3(0.2, 0.5, -1.0), 0.5)] {
+            only_numbers_are_hits(&c);
+            only_numbers_are_hits(&c.capped());
         }
     }
 

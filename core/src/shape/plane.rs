@@ -66,7 +66,7 @@ impl<R: Real> Shape<R> for Plane<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::polygon::tests::Random;
+    use crate::shape::polygon::tests::{Random, only_numbers_are_hits};
     use crate::shape::testing::{all_hits, ray};
     use glam::{Vec3, vec3};
 
@@ -111,6 +111,12 @@ mod tests {
         }
         std::println!("worst {worst:e}");
         assert!(worst < 2.0e-6, "{worst:e}");
+    }
+
+    #[test]
+    fn only_numbers_are_hits_of_planes() {
+        only_numbers_are_hits(&GROUND);
+        only_numbers_are_hits(&Plane::<f32>::new(Vec3::ONE, vec3(1.0, -2.0, 0.5)));
     }
 
     #[test]

@@ -178,6 +178,41 @@ pub(super) mod tests {
         }
     }
 
+    /// Rays of all magnitudes, aligned and not, meet a shape at numbers inside its box or not at all.
+    pub(in crate::shape) fn only_numbers_are_hits<S: Shape<f32>>(shape: &S) {
+        let values = [0.0, -0.0, 1.0e-45, -1.0e-30, 1.0e-8, 0.5, 1.0, -1.0, 3.0e4, -1.0e15, 1.0e30];
+        let mut random = Random(77);
+        let mut pick = || {
+            let i = random.within(0.0, 10.99) as usize;
+            let v = values[i];
+            if random.signed() > 0.5 { v * random.within(0.1, 1.0) } else { v }
+        };
+        for _ in 0..100_000 {
+            let (o, d) = (vec3(pick(), pick(), pick()), vec3(pick(), pick(), pick()));
+            let Ok(r) = Ray::new(o, d) else { continue };
+            let per_ray = S::per_ray(&r);
+            for (min, max) in [(0.0, f32::INFINITY), (-f32::INFINITY, f32::INFINITY), (1.0, 0.0)] {
+                if let Some(t) = shape.hit(&r, &per_ray, min, max) {
+                    assert!(t.is_finite() && t > min && t <= max, "{r:?} {t}");
+                    // A scene gives its rays the slack of its own size, here about 1.
+                    let bounds = shape.bounds().grown(r.slack() * 2.0 + 4.0e-6);
+                    assert!(!S::BOUNDED || bounds.contains(r.at(t)), "{r:?} {t}");
+                    let _ = shape.normal(&r, t);
+                }
+                for nan in [(f32::NAN, max), (min, f32::NAN)] {
+                    assert_eq!(shape.hit(&r, &per_ray, nan.0, nan.1), None);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn only_numbers_are_hits_of_polygons() {
+        only_numbers_are_hits(&Polygon::<f32>::new(&L));
+        let tilted = L.map(|v| vec3(v.x, v.y + 0.3 * v.x, v.x - v.y));
+        only_numbers_are_hits(&Polygon::<f32>::new(&tilted));
+    }
+
     const L: [Vec3; 6] = [
         vec3(0.0, 0.0, 0.0),
         vec3(2.0, 0.0, 0.0),
