@@ -1,2 +1,7 @@
 //! The command `host-sim`.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    kibiray_host_sim::commands::main()
+}

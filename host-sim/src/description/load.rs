@@ -1,4 +1,4 @@
-//! Loading what a user calls a scene: a generator's name or a file.
+//! Loading what a user calls a scene: a built-in one, a generator's name or a file.
 
 use std::fmt;
 use std::io;
@@ -7,7 +7,7 @@ use std::path::Path;
 use super::Description;
 use super::parse::ParseError;
 use super::spd::{self, SpdError};
-use super::{nff, obj};
+use super::{demo, nff, obj};
 
 /// Why a scene could not be loaded. Displays as one line.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl fmt::Display for LoadError {
             Self::UnknownScene(name) => write!(
                 f,
                 "unknown scene \"{}\": give spd:NAME[:SIZE], a file that ends in .nff or .obj, \
-                 or the name of a built-in scene",
+                 or the name of a built-in scene (host-sim scenes lists them)",
                 name.escape_debug()
             ),
             Self::Spd(error) => error.fmt(f),
@@ -68,13 +68,16 @@ impl std::error::Error for LoadError {
     }
 }
 
-/// The scene that `scene` names: `spd:NAME`, `spd:NAME:SIZE`, or the path of an NFF or OBJ file.
+/// The scene that `scene` names: `spd:NAME`, `spd:NAME:SIZE`, a built-in scene, or the path of an
+/// NFF or OBJ file.
 ///
 /// # Errors
 /// [`LoadError::UnknownScene`] for any other name; a size, file or text that does not work.
 pub fn load(scene: &str) -> Result<Description, LoadError> {
     let description = if let Some(spec) = scene.strip_prefix("spd:") {
         generated(scene, spec)?
+    } else if let Some(demo) = demo::find(scene) {
+        demo.describe()
     } else {
         let extension = Path::new(scene).extension().and_then(|it| it.to_str()).unwrap_or("");
         let parse = match extension.to_ascii_lowercase().as_str() {

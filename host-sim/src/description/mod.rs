@@ -1,5 +1,6 @@
 //! Scenes as the files describe them: in `f64`, in file order, before any number type is chosen.
 
+pub mod demo;
 pub mod load;
 pub mod nff;
 pub mod nff_write;

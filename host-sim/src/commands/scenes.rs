@@ -1,0 +1,61 @@
+//! `scene` and `scenes`: what is built in.
+
+use std::io::{self, Write};
+
+use super::Usage;
+use crate::description::{demo, spd};
+
+/// Prints a generated scene as NFF.
+pub(super) fn print(name: &str) -> anyhow::Result<()> {
+    let spec = name.strip_prefix("spd:").unwrap_or(name);
+    let (name, size) = match spec.split_once(':') {
+        Some((name, size)) => (name, Some(size)),
+        None => (spec, None),
+    };
+    let generator = spd::find(name)?;
+    let size = match size.map(str::parse) {
+        None => generator.default_size,
+        Some(Ok(size)) => size,
+        Some(Err(_)) => {
+            let spec = spec.escape_debug();
+            return Err(Usage(format!("{spec}: the size is not a whole number")).into());
+        }
+    };
+    generator.generate(size, &mut io::stdout().lock())?;
+    Ok(())
+}
+
+/// Prints the table of built-in scenes.
+pub(super) fn list() -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "{:<14} {:>5} {:>11}  what it is", "scene", "size", "primitives")?;
+    for demo in demo::all() {
+        let count = demo.describe().items.len();
+        writeln!(out, "{:<14} {:>5} {count:>11}  {}", demo.name, "", demo.about)?;
+    }
+    for generator in spd::generators() {
+        let name = format!("spd:{}", generator.name);
+        let size = generator.default_size;
+        let count = generator.primitives(size)?;
+        writeln!(out, "{name:<14} {size:>5} {count:>11}  {}", about(generator.name))?;
+    }
+    writeln!(out, "\nspd:NAME:SIZE gives another size; each step multiplies or adds primitives.")?;
+    Ok(())
+}
+
+fn about(name: &str) -> &'static str {
+    match name {
+        "balls" => "spheres with spheres on them, on a mirroring floor",
+        "gears" => "meshed gearwheels of glass: concave polygons of 144 corners",
+        "mount" => "a fractal mountain of triangles under four glass spheres",
+        "rings" => "pyramids of rings, each of cylinders and spheres",
+        "teapot" => "Newell's teapot in triangles with vertex normals, on a checkerboard",
+        "tetra" => "a fractal tetrahedron of triangles",
+        "tree" => "a tree of cones and spheres, seven lights",
+        "lattice" => "spheres joined by cylinders",
+        "shells" => "spirals of overlapping spheres",
+        "sombrero" => "a wave function as a field of triangles",
+        "jacks" => "jacks of spheres and cylinders, in a cube",
+        _ => "",
+    }
+}

@@ -1,0 +1,124 @@
+//! What every command that traces sets up first.
+
+use std::time::Instant;
+
+use anyhow::Context;
+use kibiray::accel::BuildError;
+use kibiray::num::Real;
+use kibiray::probe::Counters;
+use kibiray::scene::{Scene, Solids};
+
+use super::Usage;
+use crate::description::Description;
+use crate::description::load::load;
+use crate::engine::{Built, Memory, Pass};
+use crate::options::{Common, Number};
+use crate::report::{
+    AccelReport, MemoryReport, RaysReport, Report, SceneReport, TimeReport, WorkReport,
+};
+use crate::tables::Tables;
+
+/// Memory that is taken when `--ram` is not given.
+pub(super) const DEFAULT_RAM: usize = 256 << 10;
+
+/// Everything is ready to trace.
+pub(super) struct Stage<'a, R: Real> {
+    pub(super) description: &'a Description,
+    pub(super) tables: &'a Tables<R>,
+    pub(super) scene: &'a Scene<'a, R, Solids<'a, R>>,
+    pub(super) built: Built<'a, R>,
+    /// The report as far as it is known before a ray is shot.
+    pub(super) report: Report,
+}
+
+/// A scene, loaded.
+pub(super) struct Loaded {
+    description: Description,
+    seconds: f64,
+}
+
+/// Loads a scene once the options are known to make sense.
+pub(super) fn open(name: &str, options: &Common) -> anyhow::Result<Loaded> {
+    options.check().map_err(Usage)?;
+    if let Some(json) = &options.json {
+        super::check_folder(json)?;
+    }
+    let start = Instant::now();
+    let description = load(name)?;
+    Ok(Loaded { description, seconds: start.elapsed().as_secs_f64() })
+}
+
+/// Builds tables, scene, arena and structure, and hands them to `act`.
+pub(super) fn set<R: Real>(
+    loaded: &Loaded,
+    options: &Common,
+    ram: usize,
+    act: impl FnOnce(Stage<'_, R>) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
+    let Loaded { description, seconds } = loaded;
+    let start = Instant::now();
+    let named = || description.name.escape_debug().to_string();
+    let tables = Tables::<R>::new(description).with_context(named)?;
+    let polygons = tables.polygons();
+    let scene = tables.scene(&polygons).with_context(named)?;
+    let load_s = seconds + start.elapsed().as_secs_f64();
+
+    let mut memory = Memory::new(ram)?;
+    let mut arena = memory.arena();
+    let built = Built::new(&scene, options, &mut arena).map_err(|error| build_error(&error))?;
+    let report = Report {
+        scene: SceneReport {
+            name: description.name.clone(),
+            primitives: description.items.len(),
+            skipped: tables.skipped(),
+            bytes: tables.bytes(),
+            lights: tables.lights(),
+        },
+        num: number_name(options.num),
+        accel: AccelReport::of(&built.accel, built.mailbox_name()),
+        memory: MemoryReport::of(&arena),
+        rays: RaysReport::default(),
+        work: WorkReport::default(),
+        time: TimeReport { load_s, build_s: built.seconds, ..TimeReport::default() },
+        image: None,
+    };
+    act(Stage { description, tables: &tables, scene: &scene, built, report })
+}
+
+impl Report {
+    /// Adds what a pass counted and how long the fastest one took.
+    pub(super) fn traced(&mut self, rays: RaysReport, counters: &Counters, pass: Pass) {
+        self.rays = rays;
+        self.work = WorkReport::of(counters);
+        self.time.trace_s = pass.wall_s;
+        self.time.trace_cpu_s = pass.cpu_s;
+        self.time.rays_per_s = rays.total as f64 / pass.wall_s.max(1e-9);
+    }
+}
+
+/// The report as JSON, a line feed at the end.
+pub(super) fn json(report: &Report) -> anyhow::Result<Vec<u8>> {
+    let mut text = serde_json::to_vec_pretty(report)?;
+    text.push(b'\n');
+    Ok(text)
+}
+
+fn number_name(num: Number) -> &'static str {
+    match num {
+        Number::F32 => "f32",
+        Number::F64 => "f64",
+        Number::Fixed => "fixed",
+    }
+}
+
+fn build_error(error: &BuildError) -> anyhow::Error {
+    match error {
+        BuildError::Memory(memory) => anyhow::anyhow!(
+            "too little memory: {} bytes needed, {} bytes there; give --ram {}",
+            memory.needed,
+            memory.available,
+            memory.needed
+        ),
+        error => anyhow::anyhow!("{error}"),
+    }
+}

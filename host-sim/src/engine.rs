@@ -1,0 +1,207 @@
+//! One run: the arena, the plan, mailboxes and structure, and threads that trace.
+
+use std::sync::Mutex;
+use std::time::Instant;
+
+use cpu_time::ProcessTime;
+use kibiray::accel::mailbox::{self, AnyMailbox};
+use kibiray::accel::{Any, BuildError};
+use kibiray::memory::{Arena, OutOfArena};
+use kibiray::num::Real;
+use kibiray::plan::{Plan, Structure, Wishes, plan};
+use kibiray::scene::{Scene, Shapes, Solids};
+use kibiray::trace::Tracer;
+
+use crate::options::{AccelKind, Common, MailboxKind};
+
+/// What traces on this host.
+pub type HostTracer<'a, R> = Tracer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>>;
+
+/// Bytes that an arena lies in.
+#[derive(Debug)]
+pub struct Memory {
+    words: Vec<u64>,
+    bytes: usize,
+}
+
+impl Memory {
+    /// So many bytes, starting at a multiple of 8.
+    ///
+    /// # Errors
+    /// This host has not got them.
+    pub fn new(bytes: usize) -> anyhow::Result<Self> {
+        let words = bytes.div_ceil(8);
+        // Asks politely first: an allocation that fails ends the program.
+        Vec::<u64>::new()
+            .try_reserve_exact(words)
+            .map_err(|_| anyhow::anyhow!("this host has no {bytes} bytes for --ram"))?;
+        Ok(Self { words: vec![0; words], bytes })
+    }
+
+    /// The arena over them.
+    pub fn arena(&mut self) -> Arena<'_> {
+        let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut self.words);
+        Arena::new(&mut bytes[..self.bytes])
+    }
+}
+
+/// What the options wish for.
+pub fn wishes(options: &Common) -> Wishes {
+    Wishes {
+        structure: match options.accel {
+            AccelKind::Auto => None,
+            AccelKind::Naive => Some(Structure::Naive),
+            AccelKind::Grid => Some(Structure::Grid),
+            AccelKind::Octree => Some(Structure::Octree),
+        },
+        mailbox: match options.mailbox {
+            MailboxKind::Auto => None,
+            MailboxKind::Off => Some(mailbox::Kind::Off),
+            MailboxKind::Stamp => Some(mailbox::Kind::Stamps),
+            MailboxKind::Cache => Some(mailbox::Kind::Cache),
+        },
+        resolution: options.grid,
+        max_objects: options.max_objects,
+        max_level: options.max_level,
+    }
+}
+
+/// The plan for several threads, each with a mailbox of its own: all of them fit the budget.
+///
+/// # Errors
+/// As [`plan`]; the bytes needed are those for all threads.
+pub fn plan_for_threads<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    budget: usize,
+    wishes: &Wishes,
+    threads: usize,
+) -> Result<Plan, BuildError> {
+    let first = plan(scene, budget, wishes);
+    if threads <= 1 {
+        return first;
+    }
+    let shapes = scene.shapes.bounded();
+    let all = |kind: mailbox::Kind| kind.footprint(shapes).kept.saturating_mul(threads);
+    let mailbox = match (wishes.mailbox, first) {
+        (Some(mailbox), _) => mailbox,
+        (None, first) => {
+            // Without a wish they take no more of the memory than one would.
+            let one = first?.mailbox;
+            [one, mailbox::Kind::Cache]
+                .into_iter()
+                .find(|kind| one != mailbox::Kind::Off && all(*kind) <= budget / 8)
+                .unwrap_or(mailbox::Kind::Off)
+        }
+    };
+    let others = all(mailbox) - mailbox.footprint(shapes).kept;
+    let wishes = Wishes { mailbox: Some(mailbox), ..*wishes };
+    // Where nothing remains for the first one, that one does not fit either.
+    let planned = plan(scene, budget.saturating_sub(others), &wishes);
+    planned.map_err(|error| match error {
+        BuildError::Memory(memory) => {
+            let needed = memory.needed.saturating_add(others);
+            OutOfArena { needed, available: budget }.into()
+        }
+        error => error,
+    })
+}
+
+/// A structure and mailboxes, in an arena.
+#[derive(Debug)]
+pub struct Built<'m, R: Real> {
+    /// What was decided.
+    pub plan: Plan,
+    /// The structure.
+    pub accel: Any<'m, R>,
+    /// A mailbox a thread.
+    pub mailboxes: Vec<AnyMailbox<'m>>,
+    /// How long all that took.
+    pub seconds: f64,
+}
+
+impl<'m, R: Real> Built<'m, R> {
+    /// Plans, then takes mailboxes and structure out of the arena.
+    ///
+    /// # Errors
+    /// Too little memory, or limits that the structure does not have.
+    pub fn new<S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        options: &Common,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, BuildError> {
+        let start = Instant::now();
+        let threads = usize::from(options.threads);
+        let plan = plan_for_threads(scene, arena.capacity(), &wishes(options), threads)?;
+        let shapes = scene.shapes.bounded();
+        let mailboxes = (0..threads)
+            .map(|_| AnyMailbox::new(plan.mailbox, shapes, arena))
+            .collect::<Result<_, _>>()?;
+        let accel = Any::build(plan.accel, scene, arena)?;
+        Ok(Self { plan, accel, mailboxes, seconds: start.elapsed().as_secs_f64() })
+    }
+
+    /// The mailbox's name on the command line.
+    pub fn mailbox_name(&self) -> &'static str {
+        match self.plan.mailbox {
+            mailbox::Kind::Off => "off",
+            mailbox::Kind::Stamps => "stamp",
+            mailbox::Kind::Cache => "cache",
+        }
+    }
+}
+
+/// How long a pass took.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Pass {
+    /// By the clock on the wall.
+    pub wall_s: f64,
+    /// By the processor, all threads together.
+    pub cpu_s: f64,
+}
+
+/// Runs `pass` so many times; the fastest counts.
+pub fn fastest(repeat: u32, mut pass: impl FnMut()) -> Pass {
+    let mut best: Option<Pass> = None;
+    for _ in 0..repeat {
+        let measured = timed(&mut pass);
+        if best.is_none_or(|best| measured.wall_s < best.wall_s) {
+            best = Some(measured);
+        }
+    }
+    best.unwrap_or_default()
+}
+
+/// Runs `pass` once.
+pub fn timed(pass: impl FnOnce()) -> Pass {
+    let (wall, cpu) = (Instant::now(), ProcessTime::now());
+    pass();
+    Pass { wall_s: wall.elapsed().as_secs_f64(), cpu_s: cpu.elapsed().as_secs_f64() }
+}
+
+/// Has every worker take jobs until none is left. One worker stays on this thread.
+pub fn share<W: Send, J: Send>(
+    workers: &mut [W],
+    jobs: impl Iterator<Item = J> + Send,
+    work: impl Fn(&mut W, J) + Sync,
+) {
+    let jobs = Mutex::new(jobs);
+    let next = || match jobs.lock() {
+        Ok(mut jobs) => jobs.next(),
+        Err(_) => None,
+    };
+    let run = |worker: &mut W| {
+        while let Some(job) = next() {
+            work(worker, job);
+        }
+    };
+    match workers {
+        [] => {}
+        [worker] => run(worker),
+        [first, others @ ..] => std::thread::scope(|scope| {
+            for worker in others {
+                scope.spawn(|| run(worker));
+            }
+            run(first);
+        }),
+    }
+}

@@ -1,0 +1,253 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use kibiray::accel::octree;
+use kibiray::trace::MOST_DEPTH;
+
+use crate::values;
+
+const ABOUT: &str = "\
+Ray tracing in kibibytes, simulated: traces a scene with the very code that runs on a \
+microcontroller, inside an arena of as many bytes as you say, and reports what it took.";
+
+const EXAMPLES: &str = "\
+Examples:
+  host-sim                                       the demo scene in 64 KiB, into kibiray.png
+  host-sim render spd:tetra                      a fractal tetrahedron, into tetra.png
+  host-sim render bunny.obj --ram 1MiB --size 800x600 --threads 2
+  host-sim render spd:gears --accel grid --heatmap heat.png
+  host-sim stats spd:balls --accel octree --max-objects 4
+  host-sim trace room.nff --rays in.csv --hits out.csv
+  host-sim scene tetra:3 > tetra.nff
+
+A SCENE is
+  NAME             a built-in scene; `host-sim scenes` lists them
+  spd:NAME[:SIZE]  a generated scene of the Standard Procedural Databases
+  FILE.nff         a file in the Neutral File Format
+  FILE.obj         a Wavefront file; without a view of its own, one is chosen
+
+Exit status: 0 done, 1 a scene, file or memory that does not do, 2 wrong usage.";
+
+/// What was asked for.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "host-sim", version, about = ABOUT, after_help = EXAMPLES)]
+#[command(propagate_version = true, max_term_width = 100)]
+pub struct Cli {
+    /// The command; without one the demo scene is rendered.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// The commands.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Render a picture and report memory and work
+    Render(Render),
+    /// Trace the published ray set and print the report as JSON
+    Stats(Stats),
+    /// Answer ray queries from a CSV file
+    #[command(after_help = TRACE_HELP)]
+    Trace(Trace),
+    /// Print a generated scene as NFF
+    Scene {
+        /// NAME or NAME:SIZE, as in `tetra:3`
+        name: String,
+    },
+    /// List the built-in scenes
+    Scenes,
+}
+
+const TRACE_HELP: &str = "\
+IN.csv has the header ox,oy,oz,dx,dy,dz,tmin,tmax and a ray a row; tmax may be inf. A hit at t is \
+at o + t*d, with d of any length.
+OUT.csv has the header t,id,nx,ny,nz and a row a ray, in order: the nearest hit with \
+tmin < t < tmax, the place of its primitive in the file, and the unit normal that faces the \
+origin. A miss is inf,-1,0,0,0; a row that is no ray (a component that is not finite, or a zero \
+direction) is nan,-1,0,0,0. With --any the header is occluded and a row is 0 or 1.";
+
+/// `render`.
+#[derive(Clone, Debug, Args)]
+pub struct Render {
+    /// What to render [default: the demo scene, with --ram 64KiB]
+    pub scene: Option<String>,
+    /// The picture, a PNG [default: the scene's name; kibiray.png for the demo scene]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Pixels [default: what the scene says, or 512x512]
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub size: Option<(u16, u16)>,
+    /// Depth of mirrored and refracted rays; a ray from the eye has depth 1
+    #[arg(long, value_name = "D", default_value_t = 5)]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..=i64::from(MOST_DEPTH)))]
+    pub max_depth: u8,
+    /// Antialiasing; `off` is all there is so far
+    #[arg(long, value_name = "KIND", default_value = "off")]
+    pub aa: String,
+    /// Also draw the work of every pixel (tests and traversal steps) as colours
+    #[arg(long, value_name = "FILE")]
+    pub heatmap: Option<PathBuf>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub common: Common,
+}
+
+/// `stats`.
+#[derive(Clone, Debug, Args)]
+pub struct Stats {
+    /// What to trace
+    pub scene: String,
+    /// The ray set; `spd`: 513x513 rays through the corners of the pixels of the published
+    /// pictures, depth 5, a mirrored ray from all that mirrors or transmits
+    #[arg(long, value_enum, default_value_t = RaySet::Spd)]
+    pub rays: RaySet,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub common: Common,
+}
+
+/// `trace`.
+#[derive(Clone, Debug, Args)]
+pub struct Trace {
+    /// What to trace
+    pub scene: String,
+    /// The rays; `-`: standard input
+    #[arg(long, value_name = "IN.csv")]
+    pub rays: PathBuf,
+    /// Where the answers go; `-`: standard output
+    #[arg(long, value_name = "OUT.csv")]
+    pub hits: PathBuf,
+    /// Only ask whether anything is hit
+    #[arg(long)]
+    pub any: bool,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub common: Common,
+}
+
+/// What render, stats and trace share.
+#[derive(Clone, Debug, Args)]
+pub struct Common {
+    /// The acceleration structure; `auto`: what the plan finds best
+    #[arg(long, value_enum, default_value_t = AccelKind::Auto)]
+    pub accel: AccelKind,
+    /// The arena: structure, mailboxes and build scratch fit in so many bytes (12345, 16KiB, 1MiB)
+    /// [default: 256KiB]
+    #[arg(long, value_name = "SIZE", value_parser = values::bytes)]
+    pub ram: Option<usize>,
+    /// The numbers to compute in
+    #[arg(long, value_enum, default_value_t = Number::F32)]
+    pub num: Number,
+    /// Memory of which shapes a ray has been tested against: none, a stamp a shape, or a table of
+    /// constant size
+    #[arg(long, value_enum, default_value_t = MailboxKind::Auto)]
+    pub mailbox: MailboxKind,
+    /// Cells of a grid [default: by the plan]
+    #[arg(long, value_name = "NXxNYxNZ", value_parser = values::resolution)]
+    pub grid: Option<[u32; 3]>,
+    /// Octree: a cell with more objects than this is divided [default: by the plan]
+    #[arg(long, value_name = "M")]
+    pub max_objects: Option<usize>,
+    /// Octree: no cell is deeper than this; the root is level 0 [default: by the plan]
+    #[arg(long, value_name = "K")]
+    #[arg(value_parser = clap::value_parser!(u32).range(0..=i64::from(octree::DEEPEST)))]
+    pub max_level: Option<u32>,
+    /// When a shape belongs to a cell; `box`: its box touches the cell [default: box]
+    #[arg(long, value_enum)]
+    pub overlap: Option<Overlap>,
+    /// Also write the report as JSON; `-`: standard output
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Threads of the host; each has its own mailbox, all within --ram
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub threads: u16,
+    /// Trace everything so many times and report the fastest time
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    pub repeat: u32,
+}
+
+/// `--rays` of `stats`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum RaySet {
+    Spd,
+}
+
+/// `--accel`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum AccelKind {
+    Auto,
+    Naive,
+    Grid,
+    Octree,
+}
+
+/// `--num`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Number {
+    F32,
+    F64,
+    #[value(help = "not built yet")]
+    Fixed,
+}
+
+/// `--mailbox`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum MailboxKind {
+    Auto,
+    Off,
+    Stamp,
+    Cache,
+}
+
+/// `--overlap`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Overlap {
+    Box,
+    #[value(help = "not built yet")]
+    Exact,
+}
+
+impl Common {
+    /// Options that were given but mean nothing together, or are not there yet.
+    ///
+    /// # Errors
+    /// One line for the user.
+    pub fn check(&self) -> Result<(), String> {
+        let grid = self.grid.is_some();
+        let octree = self.max_objects.is_some() || self.max_level.is_some();
+        if self.num == Number::Fixed {
+            return Err("--num fixed is not built yet: take f32 or f64".into());
+        }
+        if self.overlap == Some(Overlap::Exact) {
+            return Err("--overlap exact is not built yet: take box".into());
+        }
+        if grid && octree {
+            return Err("--grid is for grids, --max-objects and --max-level are for octrees".into());
+        }
+        if grid && !matches!(self.accel, AccelKind::Auto | AccelKind::Grid) {
+            return Err("--grid is only for --accel grid".into());
+        }
+        if octree && !matches!(self.accel, AccelKind::Auto | AccelKind::Octree) {
+            return Err("--max-objects and --max-level are only for --accel octree".into());
+        }
+        Ok(())
+    }
+
+    /// What every command says of its arena when `--ram` is not given.
+    pub fn ram(&self, default: usize) -> usize {
+        self.ram.unwrap_or(default)
+    }
+
+    /// Whether the report goes to standard output.
+    pub fn json_to_stdout(&self) -> bool {
+        self.json.as_deref().is_some_and(values::is_dash)
+    }
+}

@@ -1,0 +1,281 @@
+//! The report: what a run took, as JSON. Keys that do not apply are left out.
+
+use std::collections::HashSet;
+
+use kibiray::accel::octree::StoppedBy;
+use kibiray::accel::{Any, Grid, Id, Octree};
+use kibiray::memory::Arena;
+use kibiray::num::Real;
+use kibiray::probe::Counters;
+use serde::Serialize;
+
+/// Everything that is reported.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// What was traced.
+    pub scene: SceneReport,
+    /// The number type.
+    pub num: &'static str,
+    /// The structure.
+    pub accel: AccelReport,
+    /// The arena.
+    pub memory: MemoryReport,
+    /// How many rays there were.
+    pub rays: RaysReport,
+    /// What they had to do.
+    pub work: WorkReport,
+    /// How long it took.
+    pub time: TimeReport,
+    /// The picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub image: Option<ImageReport>,
+}
+
+/// What was traced.
+#[derive(Clone, Debug, Serialize)]
+pub struct SceneReport {
+    /// As it was asked for.
+    pub name: String,
+    /// Primitives in the file.
+    pub primitives: usize,
+    /// Shapes that have no surface and were left out.
+    pub skipped: usize,
+    /// Bytes of the tables that would lie in flash.
+    pub bytes: usize,
+    /// Lights, including one that was put up because the file has none.
+    pub lights: usize,
+}
+
+/// The structure.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct AccelReport {
+    /// Its name.
+    pub kind: &'static str,
+    /// Divided cells of an octree.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interior_nodes: Option<usize>,
+    /// Leaves, or cells of a grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leaves: Option<usize>,
+    /// Of these, how many list nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub empty_leaves: Option<usize>,
+    /// Entries of all lists.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub references: Option<usize>,
+    /// Lists that differ from each other, the empty one not counted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distinct_lists: Option<usize>,
+    /// Level of an octree's deepest leaf.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_level: Option<u32>,
+    /// Why an octree was not divided further.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped_by: Option<&'static str>,
+    /// Cells of a grid along each axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<[u32; 3]>,
+    /// The mailbox.
+    pub mailbox: &'static str,
+}
+
+/// Leaves, empty ones, entries and distinct lists of some leaves.
+fn lists<'l, I: Id + Eq + std::hash::Hash + 'l>(
+    lists: impl Iterator<Item = &'l [I]>,
+) -> (usize, usize, usize, usize) {
+    let (mut leaves, mut empty, mut references) = (0, 0, 0);
+    let mut distinct = HashSet::new();
+    for list in lists {
+        leaves += 1;
+        references += list.len();
+        if list.is_empty() {
+            empty += 1;
+        } else {
+            distinct.insert(list);
+        }
+    }
+    (leaves, empty, references, distinct.len())
+}
+
+impl AccelReport {
+    /// Of a structure, looked at from outside.
+    pub fn of<R: Real>(accel: &Any<'_, R>, mailbox: &'static str) -> Self {
+        let report = match accel {
+            Any::Naive(_) => Self { kind: "naive", ..Self::default() },
+            Any::SmallGrid(grid) => Self::grid(grid),
+            Any::Grid(grid) => Self::grid(grid),
+            Any::LargeGrid(grid) => Self::grid(grid),
+            Any::Octree(octree) => Self::octree(octree),
+            Any::LargeOctree(octree) => Self::octree(octree),
+        };
+        Self { mailbox, ..report }
+    }
+
+    fn grid<R: Real, I: Id + Eq + std::hash::Hash, O: Id>(grid: &Grid<'_, R, I, O>) -> Self {
+        let (leaves, empty, references, _) = lists(grid.lists());
+        Self {
+            kind: "grid",
+            leaves: Some(leaves),
+            empty_leaves: Some(empty),
+            references: Some(references),
+            resolution: Some(grid.resolution()),
+            ..Self::default()
+        }
+    }
+
+    fn octree<R: Real, I: Id + Eq + std::hash::Hash>(octree: &Octree<'_, R, I>) -> Self {
+        let (leaves, empty, references, distinct) = lists(octree.leaves());
+        Self {
+            kind: "octree",
+            interior_nodes: Some(octree.interior_nodes()),
+            leaves: Some(leaves),
+            empty_leaves: Some(empty),
+            references: Some(references),
+            distinct_lists: Some(distinct),
+            max_level: Some(octree.max_level()),
+            stopped_by: Some(match octree.stopped_by() {
+                StoppedBy::Done => "done",
+                StoppedBy::Level => "level",
+                StoppedBy::Memory => "memory",
+            }),
+            ..Self::default()
+        }
+    }
+}
+
+/// The arena.
+#[derive(Clone, Debug, Serialize)]
+pub struct MemoryReport {
+    /// Bytes it has.
+    pub capacity_bytes: usize,
+    /// Bytes that stay taken while tracing.
+    pub used_bytes: usize,
+    /// Most bytes taken at any moment.
+    pub high_water_bytes: usize,
+    /// What the used bytes are for.
+    pub parts: Vec<PartReport>,
+}
+
+/// A part of the arena.
+#[derive(Clone, Debug, Serialize)]
+pub struct PartReport {
+    /// What it is for.
+    pub name: &'static str,
+    /// How large it is.
+    pub bytes: usize,
+}
+
+impl MemoryReport {
+    /// Of an arena.
+    pub fn of(arena: &Arena<'_>) -> Self {
+        let part = |p: &kibiray::memory::Part| PartReport { name: p.name, bytes: p.bytes };
+        Self {
+            capacity_bytes: arena.capacity(),
+            used_bytes: arena.used(),
+            high_water_bytes: arena.high_water(),
+            parts: arena.parts().iter().map(part).collect(),
+        }
+    }
+}
+
+/// How many rays of each kind, and how many of these hit something.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct RaysReport {
+    /// Rays by kind; not there where rays have no kind.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub kinds: Option<KindsReport>,
+    /// All rays.
+    pub total: u64,
+    /// All that hit something or were blocked.
+    pub hits: u64,
+}
+
+/// Rays by kind.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct KindsReport {
+    /// From the eye.
+    pub primary: u64,
+    /// Of these, how many hit something.
+    pub primary_hits: u64,
+    /// Towards lights.
+    pub shadow: u64,
+    /// Of these, how many were blocked.
+    pub shadow_hits: u64,
+    /// Mirrored and refracted.
+    pub secondary: u64,
+    /// Of these, how many hit something.
+    pub secondary_hits: u64,
+}
+
+impl RaysReport {
+    /// Of what was counted.
+    pub fn of(counters: &Counters) -> Self {
+        let Counters { primary, shadow, secondary, .. } = counters;
+        Self {
+            kinds: Some(KindsReport {
+                primary: primary.shot,
+                primary_hits: primary.hit,
+                shadow: shadow.shot,
+                shadow_hits: shadow.hit,
+                secondary: secondary.shot,
+                secondary_hits: secondary.hit,
+            }),
+            total: primary.shot + shadow.shot + secondary.shot,
+            hits: primary.hit + shadow.hit + secondary.hit,
+        }
+    }
+}
+
+/// What the rays had to do.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct WorkReport {
+    /// Tests of a ray against a shape.
+    pub primitive_tests: u64,
+    /// Tests that a mailbox made unnecessary.
+    pub mailbox_skips: u64,
+    /// Nodes or cells looked at.
+    pub traversal_steps: u64,
+    /// Leaves or cells entered.
+    pub leaves_visited: u64,
+    /// Of these, how many list nothing.
+    pub empty_leaves_visited: u64,
+}
+
+impl WorkReport {
+    /// Of what was counted.
+    pub fn of(counters: &Counters) -> Self {
+        Self {
+            primitive_tests: counters.primitive_tests,
+            mailbox_skips: counters.mailbox_skips,
+            traversal_steps: counters.steps,
+            leaves_visited: counters.leaves,
+            empty_leaves_visited: counters.empty_leaves,
+        }
+    }
+}
+
+/// How long it took, in seconds.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct TimeReport {
+    /// Reading or generating the scene.
+    pub load_s: f64,
+    /// Planning, mailboxes and structure.
+    pub build_s: f64,
+    /// The fastest pass.
+    pub trace_s: f64,
+    /// Its processor time, all threads together.
+    pub trace_cpu_s: f64,
+    /// Rays of a pass by [`Self::trace_s`].
+    pub rays_per_s: f64,
+}
+
+/// The picture.
+#[derive(Clone, Debug, Serialize)]
+pub struct ImageReport {
+    /// Pixels in a row.
+    pub width: u16,
+    /// Rows.
+    pub height: u16,
+    /// CRC-32 of the rows of 8-bit RGB from the top.
+    pub crc32: String,
+}
