@@ -111,13 +111,31 @@ pub fn plan<R: Real, S: Shapes<R>>(
         (None, Structure::Naive) => mailbox::Kind::Off,
         (None, _) => mailbox_for(shapes, budget),
     };
-    let taken = mailbox.footprint(shapes);
-    let room = budget.saturating_sub(taken.kept);
+    let plan = |mailbox| fit(scene, budget, wishes, structure, mailbox);
+    let (accel, mailbox) = match plan(mailbox) {
+        // Better no mailbox than no structure.
+        Err(BuildError::Memory(_)) if wishes.mailbox.is_none() => {
+            (plan(mailbox::Kind::Off)?, mailbox::Kind::Off)
+        }
+        accel => (accel?, mailbox),
+    };
+    Ok(Plan { accel, mailbox, reason })
+}
+
+/// The parameters of a structure beside a mailbox.
+fn fit<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    budget: usize,
+    wishes: &Wishes,
+    structure: Structure,
+    mailbox: mailbox::Kind,
+) -> Result<accel::Kind, BuildError> {
+    let taken = mailbox.footprint(scene.shapes.bounded());
     let accel = match structure {
         Structure::Naive => accel::Kind::Naive,
         Structure::Grid => accel::Kind::Grid(match wishes.resolution {
             Some(resolution) => resolution,
-            None => grid_for(scene, room)?,
+            None => grid_for(scene, budget.saturating_sub(taken.kept))?,
         }),
         Structure::Octree => accel::Kind::Octree(octree::Limits {
             max_objects: wishes.max_objects.unwrap_or(4),
@@ -132,7 +150,7 @@ pub fn plan<R: Real, S: Shapes<R>>(
     if needed > budget {
         return Err(OutOfArena { needed, available: budget }.into());
     }
-    Ok(Plan { accel, mailbox, reason })
+    Ok(accel)
 }
 
 /// A structure for a scene without wishes.

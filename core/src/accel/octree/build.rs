@@ -240,12 +240,12 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
         let mut stopped_by = StoppedBy::Done;
         let mut place = Place::ROOT;
         let mut level = 0;
-        while let Some((code, word)) = self.cell(place) {
+        while let Some((code, _)) = self.cell(place) {
             if code.level() > level {
                 level = code.level();
                 self.close_gaps();
             }
-            if self.count(word) > self.limits.max_objects {
+            if self.count(place) > self.limits.max_objects {
                 if code.level() >= self.deepest {
                     stopped_by = StoppedBy::Level;
                 } else if !self.divide(place, code) {
@@ -284,7 +284,9 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
         }
     }
 
-    fn count(&mut self, word: Word) -> usize {
+    /// How many shapes a leaf lists.
+    fn count(&mut self, place: Place) -> usize {
+        let word = self.cell(place).map_or(0, |(_, word)| word);
         let (_, lists) = self.ends.both();
         list_of(lists, word).map_or(0, |list| list.len())
     }
@@ -350,7 +352,7 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
         let mut place = Place::ROOT;
         while let Some((_, word)) = self.cell(place) {
             if word != DIVIDED && word > 0 {
-                let entries = self.count(word) + 1;
+                let entries = self.count(place) + 1;
                 let (_, lists) = self.ends.both();
                 let from = lists.len().saturating_sub(word as usize);
                 end += entries;
