@@ -1,0 +1,61 @@
+//! What is in a linked program.
+
+use anyhow::{Context, Result, ensure};
+use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, elf};
+use std::fs;
+use std::path::Path;
+
+/// A linked program: its symbols and how much of it lies in flash.
+#[derive(Debug)]
+pub(crate) struct Image {
+    symbols: Vec<String>,
+    flash: u64,
+}
+
+impl Image {
+    /// Reads an ELF file.
+    pub(crate) fn read(path: &Path) -> Result<Self> {
+        let bytes = fs::read(path).with_context(|| format!("{}", path.display()))?;
+        let file = object::File::parse(&*bytes)?;
+        let symbols: Vec<String> =
+            file.symbols().filter_map(|s| s.name().ok()).map(String::from).collect();
+        // Otherwise nothing would be found because nothing is told.
+        ensure!(symbols.iter().any(|name| name == "main"), "no symbols in {}", path.display());
+        let in_flash = |flags| match flags {
+            SectionFlags::Elf { sh_flags, .. } => sh_flags.0 & elf::SHF_ALLOC.0 != 0,
+            _ => false,
+        };
+        let flash = file
+            .sections()
+            .filter(|section| in_flash(section.flags()))
+            .filter_map(|section| Some(section.file_range()?.1))
+            .sum();
+        Ok(Self { symbols, flash })
+    }
+
+    /// Bytes of code, constants and initial values.
+    pub(crate) fn flash(&self) -> u64 {
+        self.flash
+    }
+
+    /// Symbols with one of these in their names.
+    fn with(&self, parts: &[&str]) -> Vec<&String> {
+        let contains = |name: &&String| parts.iter().any(|part| name.contains(part));
+        self.symbols.iter().filter(contains).collect()
+    }
+
+    /// The entry points of the allocator, which any use of `alloc` calls.
+    pub(crate) fn allocates_nothing(&self) -> Result<()> {
+        let found =
+            self.with(&["__rust_alloc", "__rust_realloc", "__rust_no_alloc", "__rdl_", "__rg_"]);
+        ensure!(found.is_empty(), "an allocator: {found:?}");
+        Ok(())
+    }
+
+    /// Formatting takes kilobytes; panics with messages are how it usually gets in.
+    pub(crate) fn formats_nothing(&self) -> Result<()> {
+        let found = self.with(&["4core3fmt", "core::fmt"]);
+        ensure!(found.is_empty(), "formatting: {found:?}");
+        Ok(())
+    }
+}
