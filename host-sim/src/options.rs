@@ -241,11 +241,6 @@ impl Common {
         Ok(())
     }
 
-    /// What every command says of its arena when `--ram` is not given.
-    pub fn ram(&self, default: usize) -> usize {
-        self.ram.unwrap_or(default)
-    }
-
     /// Whether the report goes to standard output.
     pub fn json_to_stdout(&self) -> bool {
         self.json.as_deref().is_some_and(values::is_dash)

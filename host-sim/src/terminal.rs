@@ -31,15 +31,15 @@ pub fn table(report: &Report, outcome: &Outcome<'_>) -> String {
     let scene = &report.scene;
     let skipped = match scene.skipped {
         0 => String::new(),
-        n => format!(", {n} shapes left out"),
+        n => format!(", {} left out", plural(n, "shape")),
     };
     rows.add(
         "scene",
         format!(
-            "{}: {} primitives{skipped}, {} lights, {} of tables (flash)",
+            "{}: {}{skipped}, {}, {} of tables (flash)",
             scene.name,
-            scene.primitives,
-            scene.lights,
+            plural(scene.primitives, "primitive"),
+            plural(scene.lights, "light"),
             readable(scene.bytes)
         ),
     );
@@ -159,7 +159,7 @@ impl Rows {
     }
 }
 
-fn plural(n: u64, what: &str) -> String {
+fn plural(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 

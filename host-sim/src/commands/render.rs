@@ -81,7 +81,7 @@ fn render<R: Real>(options: &Render, output: &Path, stage: Stage<'_, R>) -> anyh
     let Stage { description, tables, scene, built, mut report } = stage;
     if report.scene.skipped > 0 {
         let skipped = report.scene.skipped;
-        eprintln!("warning: {skipped} shapes without a surface (zero area or radius) are left out");
+        eprintln!("warning: left out for having no area or radius: {skipped} of the shapes");
     }
     let Built { plan, accel, mailboxes, .. } = built;
     let file_size = description.view.map(|view| view.resolution);

@@ -39,23 +39,23 @@ pub(super) fn list() -> anyhow::Result<()> {
         let count = generator.primitives(size)?;
         writeln!(out, "{name:<14} {size:>5} {count:>11}  {}", about(generator.name))?;
     }
-    writeln!(out, "\nspd:NAME:SIZE gives another size; each step multiplies or adds primitives.")?;
+    writeln!(out, "\nspd:NAME:SIZE gives another size; primitives multiply from size to size.")?;
     Ok(())
 }
 
 fn about(name: &str) -> &'static str {
     match name {
         "balls" => "spheres with spheres on them, on a mirroring floor",
-        "gears" => "meshed gearwheels of glass: concave polygons of 144 corners",
+        "gears" => "meshed gearwheels, some of glass: concave polygons of 144 corners",
         "mount" => "a fractal mountain of triangles under four glass spheres",
-        "rings" => "pyramids of rings, each of cylinders and spheres",
+        "rings" => "a pyramid of interlocked rings of cylinders and spheres",
         "teapot" => "Newell's teapot in triangles with vertex normals, on a checkerboard",
         "tetra" => "a fractal tetrahedron of triangles",
         "tree" => "a tree of cones and spheres, seven lights",
-        "lattice" => "spheres joined by cylinders",
-        "shells" => "spirals of overlapping spheres",
+        "lattice" => "mirroring spheres joined by cylinders",
+        "shells" => "a sea shell of overlapping spheres",
         "sombrero" => "a wave function as a field of triangles",
-        "jacks" => "jacks of spheres and cylinders, in a cube",
+        "jacks" => "a jack of spheres and cylinders, with smaller ones in all octants",
         _ => "",
     }
 }
