@@ -140,7 +140,7 @@ impl<R: Real> Tables<R> {
             materials: description.materials.iter().map(material).collect(),
             paint: Vec::new(),
             lights: crate::view::lights_of(description, &view).iter().map(light).collect(),
-            background: vector::<R>(description.background),
+            background: vector::<R>(crate::view::background_of(description)),
             view: View {
                 from: vector::<R>(view.from),
                 at: vector::<R>(view.at),

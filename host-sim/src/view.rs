@@ -1,4 +1,4 @@
-//! A view and a light for descriptions that have none.
+//! A view, a light and a background for descriptions that have none.
 
 use crate::description::{Description, Light, Solid, Triple, View};
 
@@ -35,8 +35,15 @@ pub fn lights_of(description: &Description, view: &View) -> Vec<Light> {
     let [(fx, fy, fz), (ux, uy, uz)] = [forward, up].map(|[x, y, z]| (x, y, z));
     let right = [fy * uz - fz * uy, fz * ux - fx * uz, fx * uy - fy * ux];
     let far = length(forward);
-    let position = std::array::from_fn(|i| view.from[i] + 0.3 * far * up[i] - 0.25 * right[i]);
+    let position = std::array::from_fn(|i| view.from[i] + 0.2 * far * up[i] - 0.1 * right[i]);
     vec![Light { position, color: None }]
+}
+
+/// The description's background; a dark blue where neither it nor a view is given, so that
+/// outlines show.
+pub fn background_of(description: &Description) -> Triple {
+    let chosen = description.view.is_none() && description.background == [0.0; 3];
+    if chosen { [0.10, 0.13, 0.18] } else { description.background }
 }
 
 fn length(v: Triple) -> f64 {
