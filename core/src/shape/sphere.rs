@@ -125,6 +125,7 @@ mod tests {
     }
 
     #[test]
+    #[allow(clippy::excessive_precision, reason = "digits as published")]
     fn the_case_of_embree_issue_676() {
         let r = ray(
             [14.800_112_7, -9.017_684_94, 3.470_127_58],

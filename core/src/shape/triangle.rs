@@ -167,9 +167,9 @@ mod tests {
     fn the_bad_case_of_pbrt_is_refused() {
         // mmp/pbrt-v4, shapes_test.cpp, Triangle.BadCases: corners in a line must not be hit.
         let t = Triangle::<f32>::new(
-            vec3(-1113.454_59, -79.049_614, -56.243_191),
-            vec3(-1113.454_59, -87.092_27, -56.243_191),
-            vec3(-1113.454_59, -79.209_015, -56.243_191),
+            vec3(-1_113.454_6, -79.049_614, -56.243_19),
+            vec3(-1_113.454_6, -87.092_27, -56.243_19),
+            vec3(-1_113.454_6, -79.209_015, -56.243_19),
         );
         assert_eq!(t.check(), Err(ShapeError::Degenerate));
     }
