@@ -135,23 +135,34 @@ pub trait Vector<R: Real<Vec3 = Self>>:
             Axis::Z
         }
     }
-    /// The same direction with length 1. Scaled by its greatest component first, so that squares
-    /// neither overflow nor vanish; `None` for zero, infinite or not-a-number vectors.
+    /// The same direction with length 1; `None` for zero, infinite or not-a-number vectors.
     fn unit(self) -> Option<Self> {
-        let m = self.max_abs();
-        if !(m > R::ZERO && self.is_finite()) {
-            return None;
+        let squared = R::narrow(self.dot(self));
+        let least = R::EPSILON * R::EPSILON;
+        if squared > least && squared * least < R::ONE {
+            return Some(self * (R::ONE / squared.sqrt()));
         }
-        let (scale, _) = m.scale_to_one();
-        let v = self * scale;
-        Some(v * (R::ONE / v.length()))
+        unit_of_any_length::<R>(self)
     }
     /// No component is infinite or not a number.
     fn is_finite(self) -> bool {
-        self.x().is_finite() && self.y().is_finite() && self.z().is_finite()
+        // What is not finite times 0 is not a number: one comparison for three.
+        let v = self * R::ZERO;
+        v.x() + v.y() + v.z() == R::ZERO
     }
     /// Every component is 0 or -0.
     fn is_zero(self) -> bool {
         self == Self::default()
     }
+}
+
+/// Scaled by a power of two first, so that squares neither overflow nor vanish.
+#[cold]
+fn unit_of_any_length<R: Real>(v: R::Vec3) -> Option<R::Vec3> {
+    let m = v.max_abs();
+    if !(m > R::ZERO && v.is_finite()) {
+        return None;
+    }
+    let v = v * m.scale_to_one().0;
+    Some(v * (R::ONE / v.length()))
 }

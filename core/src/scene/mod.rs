@@ -182,7 +182,7 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         let outside = self.shapes.normal(id, ray, t).unit()?;
         let front = outside.dot(d) <= R::Wide::default();
         let normal = if front { outside } else { -outside };
-        let shading = match self.shapes.shading_normal(id, ray, t).unit() {
+        let shading = match self.shapes.shading_normal(id, ray, t).and_then(Vec3::<R>::unit) {
             // A vertex normal may face away near a silhouette; light would come through.
             Some(n) if n.dot(normal) < R::Wide::default() => -n,
             Some(n) => n,

@@ -47,7 +47,7 @@ pub trait Shapes<R: Real> {
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R>;
 
     /// See [`Shape::shading_normal`].
-    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R>;
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>>;
 }
 
 /// The shapes of one kind. An id beyond the end is never hit.
@@ -86,8 +86,8 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
         self.get(id).map_or_else(Vec3::<R>::default, |shape| shape.normal(ray, t))
     }
 
-    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
-        self.get(id).map_or_else(Vec3::<R>::default, |shape| shape.shading_normal(ray, t))
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>> {
+        self.get(id)?.shading_normal(ray, t)
     }
 }
 
@@ -147,7 +147,7 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         }
     }
 
-    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>> {
         match id.checked_sub(self.0.count()) {
             None => self.0.shading_normal(id, ray, t),
             Some(id) => self.1.shading_normal(id, ray, t),

@@ -50,14 +50,10 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
         self.triangles.normal(id, ray, t)
     }
 
-    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
-        match (self.triangles.get(id), self.normals.get(id)) {
-            (Some(triangle), Some([a, b, c])) => {
-                let [u, v, w] = triangle.barycentric(ray);
-                *a * u + *b * v + *c * w
-            }
-            _ => self.normal(id, ray, t),
-        }
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, _t: R) -> Option<Vec3<R>> {
+        let [a, b, c] = self.normals.get(id)?;
+        let [u, v, w] = self.triangles.get(id)?.barycentric(ray);
+        Some(*a * u + *b * v + *c * w)
     }
 }
 
@@ -136,7 +132,7 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
         self.chain().normal(id, ray, t)
     }
 
-    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
+    fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>> {
         self.chain().shading_normal(id, ray, t)
     }
 }

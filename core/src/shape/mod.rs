@@ -91,9 +91,9 @@ pub trait Shape<R: Real> {
     /// necessarily of length 1.
     fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R>;
 
-    /// The normal that shading uses; differs where vertex normals are given.
-    fn shading_normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
-        self.normal(ray, t)
+    /// The normal that shading uses, of any length, where it is not the geometric one.
+    fn shading_normal(&self, _ray: &Ray<R>, _t: R) -> Option<Vec3<R>> {
+        None
     }
 }
 
