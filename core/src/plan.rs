@@ -87,17 +87,21 @@ pub struct Plan {
 /// Up to this many shapes are tested one by one.
 const FEW: usize = 12;
 
+/// Shapes in a cell of an octree that is not divided further. More than meet at most corners of a
+/// mesh: a cell around a corner lists all of them however small it is.
+const MAX_OBJECTS: usize = 8;
+
 /// Decides on a structure for a scene and a number of bytes.
 ///
 /// # Errors
-/// [`BuildError::Memory`] when what was wished for cannot fit: an arena of exactly the bytes that
-/// it names holds the plan. Without wishes there is always a plan, even for 0 bytes.
+/// [`BuildError::Memory`] when what was wished for cannot fit: an empty arena of exactly the bytes
+/// that it names, starting at a multiple of 8, holds the plan. Without wishes there is always a plan, even for 0 bytes.
 pub fn plan<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     budget: usize,
     wishes: &Wishes,
 ) -> Result<Plan, BuildError> {
-    let shapes = scene.shapes.bounded();
+    let shapes = scene.shapes().bounded();
     let (structure, reason) = match wishes.structure {
         Some(structure) => (structure, Reason::Asked),
         None if wishes.resolution.is_some() => (Structure::Grid, Reason::Asked),
@@ -130,7 +134,7 @@ fn fit<R: Real, S: Shapes<R>>(
     structure: Structure,
     mailbox: mailbox::Kind,
 ) -> Result<accel::Kind, BuildError> {
-    let taken = mailbox.footprint(scene.shapes.bounded());
+    let taken = mailbox.footprint(scene.shapes().bounded());
     let accel = match structure {
         Structure::Naive => accel::Kind::Naive,
         Structure::Grid => accel::Kind::Grid(match wishes.resolution {
@@ -138,7 +142,7 @@ fn fit<R: Real, S: Shapes<R>>(
             None => grid_for(scene, budget.saturating_sub(taken.kept))?,
         }),
         Structure::Octree => accel::Kind::Octree(octree::Limits {
-            max_objects: wishes.max_objects.unwrap_or(4),
+            max_objects: wishes.max_objects.unwrap_or(MAX_OBJECTS),
             max_level: wishes.max_level.unwrap_or(octree::DEEPEST),
         }),
     };
@@ -188,7 +192,7 @@ fn grid_for<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     room: usize,
 ) -> Result<[u32; 3], BuildError> {
-    let mut cells = scene.shapes.bounded().saturating_mul(8).max(1);
+    let mut cells = scene.shapes().bounded().saturating_mul(8).max(1);
     loop {
         let resolution = accel::grid::resolution_for(scene, cells);
         let footprint = accel::Any::footprint(accel::Kind::Grid(resolution), scene)?;

@@ -80,7 +80,7 @@ pub fn plan_for_threads<R: Real, S: Shapes<R>>(
     if threads <= 1 {
         return first;
     }
-    let shapes = scene.shapes.bounded();
+    let shapes = scene.shapes().bounded();
     let all = |kind: mailbox::Kind| kind.footprint(shapes).kept.saturating_mul(threads);
     let mailbox = match (wishes.mailbox, first) {
         (Some(mailbox), _) => mailbox,
@@ -132,7 +132,7 @@ impl<'m, R: Real> Built<'m, R> {
         let start = Instant::now();
         let threads = usize::from(options.threads);
         let plan = plan_for_threads(scene, arena.capacity(), &wishes(options), threads)?;
-        let shapes = scene.shapes.bounded();
+        let shapes = scene.shapes().bounded();
         let mailboxes = (0..threads)
             .map(|_| AnyMailbox::new(plan.mailbox, shapes, arena))
             .collect::<Result<_, _>>()?;

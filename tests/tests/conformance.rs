@@ -35,7 +35,7 @@ type Setup = (Kind, mailbox::Kind, usize);
 fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     use mailbox::Kind::{Cache, Off, Stamps};
     let octree = |max_objects, max_level| Kind::Octree(octree::Limits { max_objects, max_level });
-    let cells = |n| Kind::Grid(grid::resolution_for(scene, scene.shapes.count() * n));
+    let cells = |n| Kind::Grid(grid::resolution_for(scene, scene.shapes().count() * n));
     let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (Kind::Grid([1; 3]), Off, UNLIMITED)];
     for mailbox in [Off, Stamps, Cache] {
         for kind in [cells(3), Kind::Grid([16; 3]), Kind::Grid([7, 1, 30]), octree(1, 6)] {
@@ -65,7 +65,7 @@ fn conform<R: Real>(number: &str) {
         }
         for (kind, mailbox_kind, bytes) in setups(&scene) {
             let mut arena = Arena::new(memory.bytes(bytes));
-            let shapes = scene.shapes.bounded();
+            let shapes = scene.shapes().bounded();
             let built = mailbox::AnyMailbox::new(mailbox_kind, shapes, &mut arena)
                 .map_err(BuildError::from)
                 .and_then(|mailbox| Ok((mailbox, Any::build(kind, &scene, &mut arena)?)));

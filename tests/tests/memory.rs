@@ -20,28 +20,25 @@ fn answer<R: Real, S: Shapes<R>>(
     let size = bytes.len();
     let plan = plan(scene, size, wishes)?;
     let mut arena = Arena::new(bytes);
-    let shapes = scene.shapes.bounded();
+    let shapes = scene.shapes().bounded();
     let mut mailbox = mailbox::AnyMailbox::new(plan.mailbox, shapes, &mut arena)?;
     let accel = Any::build(plan.accel, scene, &mut arena)?;
     assert!(arena.used() <= arena.high_water() && arena.high_water() <= size);
     assert_eq!(arena.parts().iter().map(|part| part.bytes).sum::<usize>(), arena.used());
-    let hit = |(ray, interval): &Shot<R>| {
-        accel.nearest(scene, ray, *interval, &mut mailbox, &mut ())
-    };
+    let hit =
+        |(ray, interval): &Shot<R>| accel.nearest(scene, ray, *interval, &mut mailbox, &mut ());
     Ok(shots.iter().map(hit).collect())
 }
 
 fn wishes() -> Vec<Wishes> {
     let structures = [None, Some(Structure::Naive), Some(Structure::Grid), Some(Structure::Octree)];
-    let mailboxes = [
-        None,
-        Some(mailbox::Kind::Off),
-        Some(mailbox::Kind::Stamps),
-        Some(mailbox::Kind::Cache),
-    ];
+    let mailboxes =
+        [None, Some(mailbox::Kind::Off), Some(mailbox::Kind::Stamps), Some(mailbox::Kind::Cache)];
     structures
         .into_iter()
-        .flat_map(|structure| mailboxes.map(|mailbox| Wishes { structure, mailbox, ..Wishes::default() }))
+        .flat_map(|structure| {
+            mailboxes.map(|mailbox| Wishes { structure, mailbox, ..Wishes::default() })
+        })
         .chain([Wishes { resolution: Some([9, 8, 7]), ..Wishes::default() }])
         .collect()
 }
@@ -103,7 +100,8 @@ fn the_footprint_is_the_high_water_mark() {
         let tables = Tables::<f32>::new(&load(name).unwrap()).unwrap();
         let polygons = tables.polygons();
         let scene = tables.scene(&polygons).unwrap();
-        let octree = |max_objects, max_level| Kind::Octree(octree::Limits { max_objects, max_level });
+        let octree =
+            |max_objects, max_level| Kind::Octree(octree::Limits { max_objects, max_level });
         let kinds = [
             Kind::Naive,
             Kind::Grid([1, 1, 1]),

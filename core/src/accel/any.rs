@@ -63,7 +63,7 @@ impl<'m, R: Real> Any<'m, R> {
         scene: &Scene<'_, R, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
-        let shapes = scene.shapes.bounded();
+        let shapes = scene.shapes().bounded();
         Ok(match kind {
             Kind::Naive => Self::Naive(Naive::new(scene)),
             Kind::Grid(n) => match width(shapes, grid::size(scene, n)) {
@@ -87,7 +87,7 @@ impl<'m, R: Real> Any<'m, R> {
         kind: Kind,
         scene: &Scene<'_, R, S>,
     ) -> Result<Footprint, BuildError> {
-        let shapes = scene.shapes.bounded();
+        let shapes = scene.shapes().bounded();
         Ok(match kind {
             Kind::Naive => Footprint::default(),
             Kind::Grid(n) => {

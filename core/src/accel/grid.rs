@@ -54,8 +54,8 @@ fn lattice_of<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, resolution: [u32; 
 pub fn size<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, resolution: [u32; 3]) -> Size {
     let lattice = lattice_of(scene, resolution);
     let product = |n: [i32; 3]| n.iter().fold(1_usize, |p, n| p.saturating_mul(*n as usize));
-    let references = (0..scene.shapes.bounded()).fold(0_usize, |sum, id| {
-        let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes.bounds(id));
+    let references = (0..scene.shapes().bounded()).fold(0_usize, |sum, id| {
+        let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes().bounds(id));
         sum.saturating_add(product([x1 - x0 + 1, y1 - y0 + 1, z1 - z0 + 1]))
     });
     Size { cells: product(lattice.count()), references }
@@ -92,7 +92,7 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
         resolution: [u32; 3],
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
-        let shapes = scene.shapes.bounded();
+        let shapes = scene.shapes().bounded();
         BuildError::unless_fits::<I>("shapes", shapes.saturating_sub(1))?;
         let size = size(scene, resolution);
         BuildError::unless_fits::<O>("references", size.references)?;
@@ -159,7 +159,7 @@ fn for_cells<R: Real, S: Shapes<R>>(
     id: usize,
     mut f: impl FnMut(usize),
 ) {
-    let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes.bounds(id));
+    let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes().bounds(id));
     for z in z0..=z1 {
         for y in y0..=y1 {
             for x in x0..=x1 {

@@ -116,7 +116,9 @@ pub(crate) fn root<R: Real, S: Shapes<R>>(
     upper: i32,
 ) -> Aabb<R> {
     let bounds = scene.bounds();
-    let least = scene.pad() + scene.pad() + R::EPSILON * R::EPSILON;
+    let pads = scene.pad() + scene.pad();
+    // Without any shape, any box will do.
+    let least = if pads > R::ZERO { pads } else { R::ONE };
     let unit = R::ONE / R::from_i32(1 << 15);
     let grow = |n: i32| bounds.size().map(|s| (s * unit * R::from_i32(n)).max(least));
     Aabb { lo: bounds.lo - grow(lower), hi: bounds.hi + grow(upper) }

@@ -49,7 +49,7 @@ impl<'m> Stamps<'m> {
     pub fn new(shapes: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
         let stamps = arena.keep("mailbox", shapes)?;
         stamps.fill(0);
-        Ok(Self { stamps, ray: 0 })
+        Ok(Self { stamps, ray: 1 })
     }
 }
 
@@ -99,7 +99,7 @@ impl<'m> Cache<'m> {
     pub fn new(arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
         let slots = arena.keep("mailbox", Self::SLOTS)?;
         slots.fill([0, 0]);
-        Ok(Self { slots, ray: 0 })
+        Ok(Self { slots, ray: 1 })
     }
 }
 

@@ -15,7 +15,7 @@ pub struct Naive {
 impl Naive {
     /// For the shapes of a scene.
     pub fn new<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Self {
-        Self { shapes: scene.shapes.bounded() }
+        Self { shapes: scene.shapes().bounded() }
     }
 }
 

@@ -1,10 +1,10 @@
 //! The query trait: nearest hit and any hit, by one walk through a structure.
 
 use super::Mailbox;
-use crate::geom::{Interval, Ray, Slopes};
-use crate::num::{Real, Vector};
+use crate::geom::{Interval, Ray};
+use crate::num::Real;
 use crate::probe::Probe;
-use crate::scene::{Scene, Shapes};
+use crate::scene::{Framing, Scene, Shapes};
 
 /// A place where a ray meets a shape. What shading needs besides is computed when it is asked for:
 /// [`Scene::surface`].
@@ -14,6 +14,8 @@ pub struct Hit<R> {
     pub t: R,
     /// Which shape.
     pub id: usize,
+    /// Parameter along the ray as it was traced; see [`Framing`].
+    pub(crate) local: R,
 }
 
 /// Takes the shapes that a structure finds on the way of a ray.
@@ -53,7 +55,7 @@ pub trait Accel<R: Real> {
     ) -> Option<Hit<R>> {
         let goal = Nearest { hit: None };
         let (goal, framing) = search(self, scene, ray, interval, mailbox, probe, goal);
-        goal.hit.map(|hit| Hit { t: framing.restore(hit.t), id: hit.id })
+        goal.hit.map(|hit| Hit { t: framing.restore(hit.local), ..hit })
     }
 
     /// Whether anything is hit within an open interval. Stops at the first hit it finds.
@@ -81,7 +83,7 @@ fn search<R: Real, S: Shapes<R>, G: Goal<R>>(
     goal: G,
 ) -> (G, Framing<R>) {
     let (ray, interval, framing) = Framing::of(scene, ray, interval);
-    let shapes = &scene.shapes;
+    let shapes = scene.shapes();
     let mut search = Search {
         line: Line { shapes, ray: &ray, per_ray: shapes.per_ray(&ray) },
         min: interval.min,
@@ -92,70 +94,16 @@ fn search<R: Real, S: Shapes<R>, G: Goal<R>>(
     };
     // Without bounds they are in no structure. Their ids come last, so a tie is not theirs.
     for id in shapes.bounded()..shapes.count() {
+        if search.is_over() {
+            break;
+        }
         search.test(id);
     }
-    if framing.near && search.limit >= search.min {
+    if framing.near && !search.is_over() {
         search.mailbox.next_ray();
         accel.walk(&ray, &mut search);
     }
     (search.goal, framing)
-}
-
-/// How the ray that is traced relates to the ray that was asked for.
-///
-/// Brings a ray into the range in which the core computes: directions neither so long nor so short
-/// that squares overflow or vanish, by a power of two and therefore exactly; and an origin far away
-/// from the scene moved to where the ray comes near it, so that rounding errors are of the scene's
-/// size. Ordinary rays are left as they are.
-struct Framing<R> {
-    asked: Interval<R>,
-    /// Factor of the direction, a power of two.
-    scale: R,
-    /// Parameter of the new origin, before scaling back.
-    shift: R,
-    /// Whether the ray comes near the bounded shapes at all.
-    near: bool,
-}
-
-impl<R: Real> Framing<R> {
-    fn of<S: Shapes<R>>(
-        scene: &Scene<'_, R, S>,
-        ray: &Ray<R>,
-        asked: Interval<R>,
-    ) -> (Ray<R>, Interval<R>, Self) {
-        let mut framing = Self { asked, scale: R::ONE, shift: R::ZERO, near: true };
-        let mut ray = ray.with_slack(scene.slack());
-        let mut interval = asked;
-        let length = ray.direction().max_abs();
-        let limit = R::from_i32(1 << 20);
-        if length > limit || length * limit < R::ONE {
-            let (down, up) = length.scale_to_one();
-            ray = ray.rebased(ray.origin(), ray.direction() * down);
-            interval = Interval::new(interval.min * up, interval.max * up);
-            framing.scale = down;
-        }
-        if ray.origin().max_abs() > scene.far() {
-            let around = scene.bounds().grown(scene.far());
-            match Slopes::of(&ray).clip(around.lo, around.hi, -R::MAX, R::MAX) {
-                Some((enter, _)) => {
-                    ray = ray.rebased(ray.at(enter), ray.direction());
-                    interval = Interval::new(interval.min - enter, interval.max - enter);
-                    framing.shift = enter;
-                }
-                None => framing.near = false,
-            }
-        }
-        (ray, interval, framing)
-    }
-
-    /// A parameter of the traced ray as one of the ray that was asked for.
-    fn restore(&self, t: R) -> R {
-        if self.scale == R::ONE && self.shift == R::ZERO {
-            return t;
-        }
-        let t = (t + self.shift) * self.scale;
-        t.clamp(self.asked.min.next_up(), self.asked.max.next_down())
-    }
 }
 
 /// What a query looks for.
@@ -184,7 +132,7 @@ impl<R: Real> Goal<R> for Nearest<R> {
             // A tie with an earlier shape.
             Some(hit) if t == limit && id > hit.id => limit,
             _ => {
-                self.hit = Some(Hit { t, id });
+                self.hit = Some(Hit { t, id, local: t });
                 t
             }
         }
@@ -197,7 +145,7 @@ struct Blocked {
 
 impl<R: Real> Goal<R> for Blocked {
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
-        self.found = line.shapes.occludes(id, line.ray, &line.per_ray, min, limit);
+        self.found |= line.shapes.occludes(id, line.ray, &line.per_ray, min, limit);
         // Nothing is left to look for.
         if self.found { -R::INFINITY } else { limit }
     }
@@ -215,6 +163,11 @@ struct Search<'q, R: Real, S: Shapes<R>, M, P, G> {
 }
 
 impl<R: Real, S: Shapes<R>, M, P: Probe, G: Goal<R>> Search<'_, R, S, M, P, G> {
+    /// Whether nothing is left to look for; also for intervals that contain nothing.
+    fn is_over(&self) -> bool {
+        !(self.limit > self.min)
+    }
+
     fn test(&mut self, id: usize) {
         self.probe.primitive_test();
         self.limit = self.goal.test(&self.line, id, self.min, self.limit);
@@ -241,7 +194,7 @@ impl<R: Real, S: Shapes<R>, M: Mailbox, P: Probe, G: Goal<R>> Visitor<R>
                 continue;
             }
             self.test(id);
-            if self.limit < self.min {
+            if self.is_over() {
                 return;
             }
         }

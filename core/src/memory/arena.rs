@@ -21,7 +21,8 @@ pub struct Part {
 /// An arena is too small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OutOfArena {
-    /// Bytes the arena would have to have in all; with exactly so many the same calls succeed.
+    /// Bytes the arena would have to have in all: with exactly so many, starting at the same
+    /// alignment, the same calls succeed.
     pub needed: usize,
     /// Bytes it has in all.
     pub available: usize,
@@ -45,6 +46,8 @@ impl core::error::Error for OutOfArena {}
 pub struct Arena<'m> {
     free: &'m mut [u8],
     capacity: usize,
+    /// Bytes of the loss to alignment that there are not even.
+    missing: usize,
     high_water: usize,
     parts: Vec<Part, PARTS>,
 }
@@ -54,8 +57,10 @@ impl<'m> Arena<'m> {
     /// are reported as a part.
     pub fn new(bytes: &'m mut [u8]) -> Self {
         let capacity = bytes.len();
-        let lost = bytes.as_ptr().align_offset(ALIGN).min(capacity);
-        let mut arena = Self { free: bytes, capacity, high_water: 0, parts: Vec::new() };
+        let offset = bytes.as_ptr().align_offset(ALIGN);
+        let lost = offset.min(capacity);
+        let missing = offset - lost;
+        let mut arena = Self { free: bytes, capacity, missing, high_water: 0, parts: Vec::new() };
         if lost > 0 {
             // Cannot fail: there are as many.
             let _ = arena.take(lost);
@@ -115,7 +120,8 @@ impl<'m> Arena<'m> {
         if footprint.peak <= self.free.len() {
             return Ok(());
         }
-        let needed = self.used().saturating_add(footprint.peak);
+        let used = self.used().saturating_add(self.missing);
+        let needed = used.saturating_add(footprint.peak);
         Err(OutOfArena { needed, available: self.capacity })
     }
 

@@ -11,6 +11,7 @@ macro_rules! float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const HALF: Self = 0.5;
+            const PI: Self = core::$f::consts::PI;
             const EPSILON: Self = $f::EPSILON;
             const MAX: Self = $f::MAX;
             const INFINITY: Self = $f::INFINITY;

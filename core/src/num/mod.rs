@@ -67,6 +67,8 @@ pub trait Real:
     const ONE: Self;
     /// 1/2.
     const HALF: Self;
+    /// π, rounded.
+    const PI: Self;
     /// The distance from 1 to the next greater number.
     const EPSILON: Self;
     /// The greatest number that is a distance.
@@ -135,7 +137,7 @@ pub trait Real:
             lo
         }
     }
-    /// Whole number of units, for bounds that are powers of two of [`Real::EPSILON`].
+    /// `n` units in the last place of 1.
     fn ulps(n: i32) -> Self {
         Self::EPSILON * Self::from_i32(n)
     }

@@ -52,12 +52,18 @@ impl<R: Real> Camera<R> {
     pub fn new(view: &View<R>, aspect: R) -> Result<Self, ViewError> {
         let forward = (view.at - view.from).unit().ok_or(ViewError)?;
         let up = view.up.unit().ok_or(ViewError)?;
-        let right = forward.cross(up).unit().ok_or(ViewError)?;
-        let up = right.cross(forward);
-        let half = (view.angle * R::HALF).tan();
-        if !(half > R::ZERO && half.is_finite() && aspect > R::ZERO && aspect.is_finite()) {
+        let right = forward.cross(up);
+        // What is smaller than this is only the rounding of parallel vectors.
+        if !(right.max_abs() > R::ulps(16)) {
             return Err(ViewError);
         }
+        let right = right.unit().ok_or(ViewError)?;
+        let up = right.cross(forward);
+        let in_range = view.angle > R::ZERO && view.angle < R::PI;
+        if !(in_range && aspect > R::ZERO && aspect.is_finite()) {
+            return Err(ViewError);
+        }
+        let half = (view.angle * R::HALF).tan();
         Ok(Self { eye: view.from, forward, right: right * (half * aspect), up: up * half })
     }
 

@@ -2,16 +2,19 @@
 //! geometry is never copied.
 
 mod camera;
+mod framing;
 mod material;
 mod shapes;
 mod solids;
 
 pub use camera::{Camera, View, ViewError};
+pub(crate) use framing::Framing;
 pub use material::{Light, Material, Paint};
 pub use shapes::Shapes;
 pub use solids::{Solids, Triangles};
 
-use crate::geom::{Aabb, Ray, SLACK};
+use crate::accel::Hit;
+use crate::geom::{Aabb, Interval, Ray, SLACK};
 use crate::num::{Real, Vec3, Vector};
 use crate::shape::ShapeError;
 
@@ -28,12 +31,12 @@ pub enum SceneError {
     },
     /// Shapes without bounds come before shapes with bounds.
     UnboundedFirst,
-    /// A surface's or light's number is not finite, or negative where that has no meaning.
+    /// A surface's number is not finite, or negative where that has no meaning.
     Material {
         /// Its place in the table of materials.
         index: usize,
     },
-    /// A light's number is not finite.
+    /// A light's number is not finite, or too great to compute with.
     Light {
         /// Its place in the table of lights.
         index: usize,
@@ -51,7 +54,9 @@ impl core::fmt::Display for SceneError {
             Self::Shape { id, why } => write!(f, "shape {id}: {why}"),
             Self::UnboundedFirst => f.write_str("shapes without bounds must come last"),
             Self::Material { index } => write!(f, "material {index}: a number is out of range"),
-            Self::Light { index } => write!(f, "light {index}: a number is not finite"),
+            Self::Light { index } => {
+                write!(f, "light {index}: a number is not finite or too great")
+            }
             Self::Paint { index } => {
                 write!(f, "paint {index}: no such material, or its shapes are out of order")
             }
@@ -67,8 +72,7 @@ impl core::error::Error for SceneError {}
 /// materials everything is a matt white, without lights everything is black.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a, R: Real, S> {
-    /// The shapes; an id is a place in this set.
-    pub shapes: S,
+    shapes: S,
     bounds: Aabb<R>,
     scale: R,
     materials: &'a [Material<R>],
@@ -127,13 +131,19 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
     /// Puts up lights, and a colour where nothing is hit.
     ///
     /// # Errors
-    /// [`SceneError::Light`].
+    /// [`SceneError::Light`]. A background that is not a number is drawn black.
     pub fn lit(self, lights: &'a [Light<R>], background: Vec3<R>) -> Result<Self, SceneError> {
-        let usable = |l: &Light<R>| l.position.is_finite() && l.color.is_finite();
+        let four = R::from_i32(4);
+        let usable = |l: &Light<R>| (l.position * four).is_finite() && l.color.is_finite();
         if let Some(index) = lights.iter().position(|l| !usable(l)) {
             return Err(SceneError::Light { index });
         }
         Ok(Self { lights, background, ..self })
+    }
+
+    /// The shapes; an id is a place in this set.
+    pub fn shapes(&self) -> &S {
+        &self.shapes
     }
 
     /// The smallest box around all bounded shapes; a point at the origin when there are none.
@@ -176,8 +186,11 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         self.materials.get(material).copied().unwrap_or_default()
     }
 
-    /// The surface where a ray hit a shape; `None` where a normal cannot be told.
-    pub fn surface(&self, ray: &Ray<R>, id: usize, t: R) -> Option<Surface<R>> {
+    /// The surface where a ray hit a shape; `None` where a normal cannot be told. The hit is one of
+    /// that ray in this scene.
+    pub fn surface(&self, ray: &Ray<R>, hit: &Hit<R>) -> Option<Surface<R>> {
+        let (ray, _, _) = Framing::of(self, ray, Interval::RAY);
+        let (ray, t, id) = (&ray, hit.local, hit.id);
         let d = ray.direction();
         let outside = self.shapes.normal(id, ray, t).unit()?;
         let front = outside.dot(d) <= R::Wide::default();
@@ -188,7 +201,9 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
             Some(n) => n,
             None => normal,
         };
-        Some(Surface { point: ray.at(t), normal, shading, front })
+        let point = ray.at(t);
+        let error = R::ulps(POINT_ERROR) * ray.origin().max_abs().max(point.max_abs());
+        Some(Surface { point, normal, shading, front, error })
     }
 }
 
@@ -203,4 +218,12 @@ pub struct Surface<R: Real> {
     pub shading: Vec3<R>,
     /// Whether the ray comes from outside (for flat shapes: from the front).
     pub front: bool,
+    /// How far `point` may be from the surface: a new ray that starts so far off it, along the
+    /// normal, does not meet it again for rounding's sake.
+    pub error: R,
 }
+
+/// Bound of a hit point's error, in units of the last place of the coordinates involved: t, its
+/// product with the direction and the sum each add up to half a unit, a shape's own test up to two;
+/// doubled.
+const POINT_ERROR: i32 = 8;

@@ -11,7 +11,7 @@ use crate::probe::{Probe, RayKind};
 use crate::scene::{Light, Material, Scene, Shapes, Surface};
 use heapless::Vec;
 
-/// The greatest depth of recursion; a pending ray takes 44 bytes in `f32`.
+/// The greatest depth of recursion; a pending ray takes 36 bytes in `f32`.
 pub const MOST_DEPTH: u8 = 16;
 
 /// Which mirrored and refracted rays are shot.
@@ -59,11 +59,6 @@ pub struct Tracer<'a, R: Real, S, A, M> {
     settings: Settings,
 }
 
-/// How far, in units of the last place of the coordinates involved, a new ray starts off a surface:
-/// twice the rounding error of a hit point (t, its product with the direction and the sum each add
-/// up to one unit, the shape's own test up to two).
-const OFF_SURFACE: i32 = 8;
-
 impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> {
     /// A tracer over a structure and a mailbox made for that scene.
     pub fn new(scene: &'a Scene<'a, R, S>, accel: &'a A, mailbox: M, settings: Settings) -> Self {
@@ -82,7 +77,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
             let kind = if depth == 1 { RayKind::Primary } else { RayKind::Secondary };
             probe.ray(kind, hit.is_some());
             let surface = hit.and_then(|hit| {
-                let surface = self.scene.surface(&ray, hit.id, hit.t)?;
+                let surface = self.scene.surface(&ray, &hit)?;
                 Some((surface, self.scene.material(hit.id)))
             });
             match surface {
@@ -107,13 +102,12 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     fn local<P: Probe>(&mut self, bounce: &Bounce<R>, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         for light in self.scene.lights() {
-            let Some((towards, share)) = bounce.lit_by(light) else { continue };
+            let Some((ray, towards)) = bounce.towards(light) else { continue };
             let between = Interval::new(R::ZERO, R::ONE);
-            let blocked =
-                self.accel.occluded(self.scene, &towards, between, &mut self.mailbox, probe);
+            let blocked = self.accel.occluded(self.scene, &ray, between, &mut self.mailbox, probe);
             probe.ray(RayKind::Shadow, blocked);
             if !blocked {
-                color = color + bounce.reflected(&towards, share).scale(light.color);
+                color = color + bounce.reflected(towards).scale(light.color);
             }
         }
         color
@@ -124,9 +118,8 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 struct Bounce<R: Real> {
     surface: Surface<R>,
     material: Material<R>,
-    /// Direction of arrival, of length 1.
+    /// Direction of arrival and of the mirrored ray, of length 1; zero where nothing mirrors.
     direction: Vec3<R>,
-    /// Direction of the mirrored ray, of length 1.
     mirrored: Vec3<R>,
     /// From the surface to where rays on the near side start.
     off: Vec3<R>,
@@ -134,43 +127,44 @@ struct Bounce<R: Real> {
 
 impl<R: Real> Bounce<R> {
     fn new(ray: &Ray<R>, surface: Surface<R>, material: Material<R>) -> Self {
-        let direction = ray.direction();
         let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
-        let (direction, mirrored) = if mirrors {
-            let direction = direction * (R::ONE / direction.length());
-            let along = R::narrow(direction.dot(surface.shading));
-            (direction, direction - surface.shading * (along + along))
-        } else {
-            (direction, direction)
+        let direction = if mirrors { ray.direction().unit() } else { None }.unwrap_or_default();
+        let mirror = |n: Vec3<R>| {
+            let along = R::narrow(direction.dot(n));
+            direction - n * (along + along)
         };
-        let reach = ray.origin().max_abs().max(surface.point.max_abs());
-        let off = surface.normal * (R::ulps(OFF_SURFACE) * reach);
+        let mut mirrored = mirror(surface.shading);
+        if mirrored.dot(surface.normal) < R::Wide::default() {
+            // An interpolated normal would send the ray into the surface.
+            mirrored = mirror(surface.normal);
+        }
+        let off = surface.normal * surface.error;
         Self { surface, material, direction, mirrored, off }
     }
 
-    /// The ray to a light and the cosine at which its light falls in; `None` when the surface faces
-    /// away. The light is at parameter 1.
-    fn lit_by(&self, light: &Light<R>) -> Option<(Ray<R>, R)> {
+    /// The ray to a light, which is at parameter 1, and its direction with length 1; `None` when
+    /// the surface faces away.
+    fn towards(&self, light: &Light<R>) -> Option<(Ray<R>, Vec3<R>)> {
         let origin = self.surface.point + self.off;
         let towards = light.position - origin;
+        let unit = towards.unit()?;
         let zero = R::Wide::default();
-        let dot = self.surface.shading.dot(towards);
-        if !(dot > zero && self.surface.normal.dot(towards) > zero) {
+        let faces = |n: Vec3<R>| n.dot(unit) > zero;
+        if !(faces(self.surface.shading) && faces(self.surface.normal)) {
             return None;
         }
-        let cosine = R::narrow(dot) / towards.length();
-        Some((Ray::new(origin, towards).ok()?, cosine))
+        Some((Ray::new(origin, towards).ok()?, unit))
     }
 
     /// What the surface sends back of white light from a direction.
-    fn reflected(&self, towards: &Ray<R>, cosine: R) -> Vec3<R> {
+    fn reflected(&self, towards: Vec3<R>) -> Vec3<R> {
         let Material { color, diffuse, specular, shine, .. } = self.material;
+        let cosine = R::narrow(self.surface.shading.dot(towards));
         let matt = color * (diffuse * cosine);
         if !(specular > R::ZERO) {
             return matt;
         }
-        let towards = towards.direction();
-        let highlight = R::narrow(self.mirrored.dot(towards)) / towards.length();
+        let highlight = R::narrow(self.mirrored.dot(towards));
         if !(highlight > R::ZERO) {
             return matt;
         }
@@ -198,17 +192,20 @@ impl<R: Real> Bounce<R> {
 
     /// Direction behind the surface, after Snell; `None` for total reflection.
     fn refracted(&self) -> Option<Vec3<R>> {
-        let (d, n) = (self.direction, self.surface.shading);
         let index = self.material.index;
         if !(index > R::ZERO) || index == R::ONE {
-            return Some(d);
+            return Some(self.direction);
         }
         let ratio = if self.surface.front { R::ONE / index } else { index };
-        let cosine = -R::narrow(d.dot(n));
-        let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
-        if !(under_root >= R::ZERO) {
-            return None;
-        }
-        Some(d * ratio + n * (ratio * cosine - under_root.sqrt()))
+        let refract = |n: Vec3<R>| {
+            let cosine = -R::narrow(self.direction.dot(n));
+            let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
+            let bent = self.direction * ratio + n * (ratio * cosine - under_root.sqrt());
+            (under_root >= R::ZERO).then_some(bent)
+        };
+        let Surface { normal, shading, .. } = self.surface;
+        let through = |d: &Vec3<R>| d.dot(normal) < R::Wide::default();
+        // An interpolated normal may send the ray back to where it comes from.
+        refract(shading).filter(through).or_else(|| refract(normal))
     }
 }

@@ -132,7 +132,7 @@ fn write<R: Real>(
         match (answer, &query.ray) {
             (_, _) if options.any => writeln!(text, "{}", u8::from(answer.is_hit()))?,
             (Answer::Hit(hit), Ok(ray)) => {
-                let surface = scene.surface(ray, hit.id, hit.t);
+                let surface = scene.surface(ray, hit);
                 let [x, y, z] = surface.map_or([R::ZERO; 3], |surface| surface.normal.to_array());
                 let (t, id) = (hit.t, tables.file_id(hit.id));
                 // Debug gives the shortest digits that read back as the same number.

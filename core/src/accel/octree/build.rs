@@ -64,7 +64,7 @@ impl<R: Real, I: Id> Octree<'_, R, I> {
         let mut next = Some(Code::ROOT);
         while let Some(code) = next {
             let (base, edge) = code.place(deepest);
-            let shapes = 0..scene.shapes.bounded();
+            let shapes = 0..scene.shapes().bounded();
             let inside = |id: &usize| touches(&lattice, scene, *id, base, edge) != 0;
             let count = shapes.filter(inside).count();
             let entries = count + usize::from(count > 0);
@@ -101,7 +101,7 @@ fn check<R: Real, S: Shapes<R>, I: Id>(
         return Err(BuildError::TooDeep { level: limits.max_level, limit: DEEPEST });
     }
     // A list begins with its length, so that has to fit as well as the ids.
-    BuildError::unless_fits::<I>("shapes", scene.shapes.bounded())?;
+    BuildError::unless_fits::<I>("shapes", scene.shapes().bounded())?;
     Ok(limits.max_level)
 }
 
@@ -117,7 +117,7 @@ fn touches<R: Real, S: Shapes<R>>(
     base: [i32; 3],
     edge: i32,
 ) -> u32 {
-    let (first, last) = lattice.cells_of(scene.shapes.bounds(id));
+    let (first, last) = lattice.cells_of(scene.shapes().bounds(id));
     let half = edge / 2;
     // Bit 0: the lower half along an axis, bit 1: the upper one.
     let halves = |first: i32, last: i32, base: i32| {
@@ -152,7 +152,7 @@ impl<'m, R: Real, I: Id> Octree<'m, R, I> {
     ) -> Result<Self, BuildError> {
         let deepest = check::<R, S, I>(scene, limits)?;
         let lattice = lattice_of(scene, deepest);
-        let shapes = scene.shapes.bounded();
+        let shapes = scene.shapes().bounded();
         let entries = shapes + usize::from(shapes > 0);
         let least = bytes::<I>(0, entries);
         arena.require(Footprint { kept: least, peak: least })?;
@@ -320,22 +320,28 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
         let mut family = [0; 9];
         family[0] = code.0;
         // The first child's list is the oldest of the new ones: it lies last.
-        let mut free = new;
         let mut end = old;
-        for (octant, (count, child)) in counts.iter().zip(family.iter_mut().skip(1)).enumerate() {
+        let mut next = [0; 8];
+        for ((count, child), next) in counts.iter().zip(family.iter_mut().skip(1)).zip(&mut next) {
             if *count == 0 {
                 continue;
             }
             end += count + 1;
             *child = end as Word;
-            let Some(split) = free.len().checked_sub(count + 1) else { break };
-            let (rest, mine) = free.split_at_mut_checked(split).unwrap_or_default();
-            free = rest;
-            if let Some((length, ids)) = mine.split_first_mut() {
+            let start = new.len().saturating_sub(end - old);
+            if let Some(length) = new.get_mut(start) {
                 *length = I::new(*count);
-                let inside = list.iter().filter(|id| octants(id) >> octant & 1 != 0);
-                for (slot, id) in ids.iter_mut().zip(inside) {
-                    *slot = *id;
+            }
+            *next = start + 1;
+        }
+        for id in list {
+            let octants = octants(id);
+            for (octant, next) in next.iter_mut().enumerate() {
+                if octants >> octant & 1 != 0 {
+                    if let Some(place) = new.get_mut(*next) {
+                        *place = *id;
+                    }
+                    *next += 1;
                 }
             }
         }
