@@ -39,6 +39,13 @@ impl<R: Real> Ray<R> {
         }
     }
 
+    /// A ray on its way through a scene, which will give it its slack. The direction has length 1,
+    /// unless it is not a number.
+    pub(crate) fn spawned(origin: Vec3<R>, direction: Vec3<R>) -> Option<Self> {
+        let finite = origin.is_finite() && direction.is_finite();
+        finite.then_some(Self { origin, direction, slack: R::ZERO })
+    }
+
     /// Where it starts.
     pub fn origin(&self) -> Vec3<R> {
         self.origin

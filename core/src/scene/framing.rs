@@ -1,8 +1,11 @@
 //! Rays brought into the range in which the core computes.
 
 use super::{Scene, Shapes};
-use crate::geom::{Interval, Ray, Slopes};
+use crate::geom::{Aabb, Interval, Ray, Slopes};
 use crate::num::{Real, Vector};
+
+/// Directions this many times longer or shorter than 1 are left as they are.
+const LONG: i32 = 16;
 
 /// How the ray that is traced relates to the ray that was asked for.
 ///
@@ -21,24 +24,42 @@ pub(crate) struct Framing<R> {
 }
 
 impl<R: Real> Framing<R> {
+    #[inline]
     pub(crate) fn of<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
         ray: &Ray<R>,
         asked: Interval<R>,
     ) -> (Ray<R>, Interval<R>, Self) {
+        let ray = ray.with_slack(scene.slack());
+        let (o, d) = (ray.origin(), ray.direction());
+        // Squares, because they cost least; what overflows is not ordinary.
+        let (distance, length) = (R::narrow(o.dot(o)), R::narrow(d.dot(d)));
+        let (far, long) = (scene.far(), R::from_i32(LONG * LONG));
+        if distance <= far * far && length <= long && length * long >= R::ONE {
+            return (ray, asked, Self { asked, scale: R::ONE, shift: R::ZERO, near: true });
+        }
+        Self::of_extraordinary(ray, asked, scene.bounds(), far)
+    }
+
+    #[cold]
+    fn of_extraordinary(
+        mut ray: Ray<R>,
+        asked: Interval<R>,
+        bounds: Aabb<R>,
+        far: R,
+    ) -> (Ray<R>, Interval<R>, Self) {
         let mut framing = Self { asked, scale: R::ONE, shift: R::ZERO, near: true };
-        let mut ray = ray.with_slack(scene.slack());
         let mut interval = asked;
         let length = ray.direction().max_abs();
-        let limit = R::from_i32(16);
-        if length > limit || length * limit < R::ONE {
+        let long = R::from_i32(LONG);
+        if length > long || length * long < R::ONE {
             let (down, up) = length.scale_to_one();
             ray = ray.rebased(ray.origin(), ray.direction() * down);
             interval = Interval::new(interval.min * up, interval.max * up);
             framing.scale = down;
         }
-        if ray.origin().max_abs() > scene.far() {
-            let around = scene.bounds().grown(scene.far());
+        if ray.origin().max_abs() > far {
+            let around = bounds.grown(far);
             match Slopes::of(&ray).clip(around.lo, around.hi, -R::MAX, R::MAX) {
                 Some((enter, _)) => {
                     ray = ray.rebased(ray.at(enter), ray.direction());

@@ -102,12 +102,12 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     fn local<P: Probe>(&mut self, bounce: &Bounce<R>, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         for light in self.scene.lights() {
-            let Some((ray, towards)) = bounce.towards(light) else { continue };
-            let between = Interval::new(R::ZERO, R::ONE);
+            let Some((ray, distance)) = bounce.towards(light) else { continue };
+            let between = Interval::new(R::ZERO, distance);
             let blocked = self.accel.occluded(self.scene, &ray, between, &mut self.mailbox, probe);
             probe.ray(RayKind::Shadow, blocked);
             if !blocked {
-                color = color + bounce.reflected(towards).scale(light.color);
+                color = color + bounce.reflected(ray.direction()).scale(light.color);
             }
         }
         color
@@ -142,9 +142,9 @@ impl<R: Real> Bounce<R> {
         Self { surface, material, direction, mirrored, off }
     }
 
-    /// The ray to a light, which is at parameter 1, and its direction with length 1; `None` when
-    /// the surface faces away.
-    fn towards(&self, light: &Light<R>) -> Option<(Ray<R>, Vec3<R>)> {
+    /// The ray to a light, its direction of length 1, and the light's parameter; `None` when the
+    /// surface faces away.
+    fn towards(&self, light: &Light<R>) -> Option<(Ray<R>, R)> {
         let origin = self.surface.point + self.off;
         let towards = light.position - origin;
         let unit = towards.unit()?;
@@ -153,7 +153,7 @@ impl<R: Real> Bounce<R> {
         if !(faces(self.surface.shading) && faces(self.surface.normal)) {
             return None;
         }
-        Some((Ray::new(origin, towards).ok()?, unit))
+        Some((Ray::spawned(origin, unit)?, R::narrow(towards.dot(unit))))
     }
 
     /// What the surface sends back of white light from a direction.
@@ -184,7 +184,7 @@ impl<R: Real> Bounce<R> {
             Secondary::All => specular > R::ZERO || transmission > R::ZERO,
         };
         let point = self.surface.point;
-        let ray = |origin, direction, share| Some((Ray::new(origin, direction).ok()?, share));
+        let ray = |origin, direction, share| Some((Ray::spawned(origin, direction)?, share));
         let mirrored = if mirrors { ray(point + self.off, self.mirrored, share) } else { None };
         let through = through.and_then(|d| ray(point - self.off, d, transmission));
         through.into_iter().chain(mirrored)
