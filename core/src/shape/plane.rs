@@ -66,8 +66,7 @@ impl<R: Real> Shape<R> for Plane<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::polygon::tests::{Random, only_numbers_are_hits};
-    use crate::shape::testing::{all_hits, ray};
+    use crate::shape::testing::{Random, all_hits, only_numbers_are_hits, ray};
     use glam::{Vec3, vec3};
 
     extern crate std;

@@ -100,7 +100,7 @@ impl<R: Real> Shape<R> for Sphere<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::testing::{all_hits, ray};
+    use crate::shape::testing::{all_hits, only_numbers_are_hits, ray};
 
     const UNIT: Sphere<f32> = Sphere::new(glam::Vec3::ZERO, 1.0);
 
@@ -147,6 +147,12 @@ mod tests {
             assert_eq!(all_hits(&UNIT, &towards(0.99)).len(), 2, "{z}");
             assert!(all_hits(&UNIT, &towards(1.01)).is_empty(), "{z}");
         }
+    }
+
+    #[test]
+    fn only_numbers_are_hits_of_spheres() {
+        only_numbers_are_hits(&UNIT);
+        only_numbers_are_hits(&Sphere::new(glam::vec3(0.2, -0.5, 0.3), 0.4));
     }
 
     #[test]

@@ -139,7 +139,7 @@ fn is_degenerate<R: Real>([a, b, c]: [Vec3<R>; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::testing::{all_hits, ray};
+    use crate::shape::testing::{all_hits, only_numbers_are_hits, ray};
     use glam::{Vec3, vec3};
 
     #[test]
@@ -192,6 +192,13 @@ mod tests {
             }
         }
         assert!(hits > 0);
+    }
+
+    #[test]
+    fn only_numbers_are_hits_of_triangles() {
+        only_numbers_are_hits(&Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y));
+        let oblique = [vec3(0.1, 0.2, 0.3), vec3(1.0, 0.3, -0.4), vec3(-0.4, 0.9, 0.35)];
+        only_numbers_are_hits(&Triangle { corners: oblique });
     }
 
     #[test]
