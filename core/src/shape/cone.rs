@@ -7,8 +7,8 @@
 //! through the tip, where b² and a c agree, are as exact there as any. A ray parallel to the wall
 //! has a = 0 and one root at infinity. The ends are planes as for the cylinder.
 
-use super::cylinder::{Crossings, Frame, Nearest, Part, around_discs, axis_between, is_unit};
-use super::{Shape, ShapeError, workable};
+use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit};
+use super::{Length, Shape, ShapeError, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -62,9 +62,14 @@ impl<R: Real> Cone<R> {
         (self.apex_radius - self.base_radius) / self.height
     }
 
-    fn crossings(&self, ray: &Ray<R>, nearest: &Nearest<R>) -> Option<(Frame<R>, Crossings<R>)> {
+    fn hull(&self) -> Hull<R> {
+        let Self { base, axis, height, base_radius, apex_radius, .. } = *self;
+        Hull { base, axis, height, base_radius, growth: self.growth(), apex_radius }
+    }
+
+    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(Frame<R>, Crossings<R>)> {
         let half = self.height * R::HALF;
-        let frame = Frame::of(ray, nearest, self.base + self.axis * half, self.axis);
+        let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
         let slab = frame.slab(half)?;
         let (frame, slab, wall) = self.wall(frame, slab)?;
         // A tip is a disc without extent; taken for one, it leaves no hole to slip through.
@@ -134,10 +139,10 @@ impl<R: Real> Cone<R> {
 }
 
 impl<R: Real> Shape<R> for Cone<R> {
-    type PerRay = Nearest<R>;
+    type PerRay = Length<R>;
 
-    fn per_ray(ray: &Ray<R>) -> Nearest<R> {
-        Nearest::of(ray)
+    fn per_ray(ray: &Ray<R>) -> Length<R> {
+        Length::of(ray)
     }
 
     /// An axis whose length is not 1 is degenerate too.
@@ -162,27 +167,24 @@ impl<R: Real> Shape<R> for Cone<R> {
     }
 
     fn bounds(&self) -> Aabb<R> {
-        around_discs(self.base, self.axis, self.height, self.base_radius, self.apex_radius)
+        self.hull().bounds()
     }
 
-    fn hit(&self, ray: &Ray<R>, nearest: &Nearest<R>, min: R, max: R) -> Option<R> {
-        let (frame, crossings) = self.crossings(ray, nearest)?;
+    fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
+        let (frame, crossings) = self.crossings(ray, length)?;
         if let [None, None] = crossings {
             return None;
         }
-        frame.select(crossings, ray, self.bounds(), (min, max))
+        frame.select(crossings, ray, &self.hull(), (min, max))
     }
 
     fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
-        let found = self.crossings(ray, &Nearest::of(ray));
+        let found = self.crossings(ray, &Length::of(ray));
         let across = match found.and_then(|(frame, all)| Some((frame, frame.origin_of(all, t)?))) {
             Some((_, (_, Part::Base))) => return -self.axis,
             Some((_, (_, Part::Apex))) => return self.axis,
             Some((frame, (step, Part::Wall))) => frame.moved(step).q,
-            None => {
-                let p = ray.at(t) - self.base;
-                p - self.axis * R::narrow(p.dot(self.axis))
-            }
+            None => self.hull().across(ray.at(t)),
         };
         // At the tip no direction across the axis is left; then along it.
         across.unit().unwrap_or_default() - self.axis * self.growth()
@@ -319,7 +321,7 @@ mod tests {
             (down, vec3(-1.0, -1.0, 0.0), vec3(-1.0, 1.0, 0.0)),
         ] {
             let r = Ray::new(p + n, -n).unwrap();
-            let t = cone.hit(&r, &Nearest::of(&r), 0.0, 2.0).unwrap();
+            let t = cone.hit(&r, &Length::of(&r), 0.0, 2.0).unwrap();
             assert!((t - 1.0).abs() < 1.0e-6);
             assert!((cone.normal(&r, t).normalize() - n.normalize()).length() < 1.0e-6);
         }

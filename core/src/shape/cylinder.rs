@@ -6,9 +6,10 @@
 //! closed cylinder is the part of the wall's inside between two planes (T. L. Kay, J. T. Kajiya,
 //! "Ray tracing complex scenes", 1986), not wall plus discs: no ray gets in between at the rims.
 
-use super::{Shape, ShapeError, settle, workable};
+use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit};
+use super::{Length, Shape, ShapeError, workable};
 use crate::geom::{Aabb, Ray};
-use crate::num::{Axis, Real, Vec3, Vector};
+use crate::num::{Real, Vec3, Vector};
 
 /// A cylinder; 36 bytes in `f32`.
 ///
@@ -52,9 +53,14 @@ impl<R: Real> Cylinder<R> {
         Self { capped: true, ..self }
     }
 
-    fn crossings(&self, ray: &Ray<R>, nearest: &Nearest<R>) -> Option<(Frame<R>, Crossings<R>)> {
+    fn hull(&self) -> Hull<R> {
+        let Self { base, axis, height, radius, .. } = *self;
+        Hull { base, axis, height, base_radius: radius, growth: R::ZERO, apex_radius: radius }
+    }
+
+    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(Frame<R>, Crossings<R>)> {
         let half = self.height * R::HALF;
-        let frame = Frame::of(ray, nearest, self.base + self.axis * half, self.axis);
+        let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
         let slab = frame.slab(half)?;
         let wall = self.wall(&frame)?;
         Some((frame, frame.ends(wall, slab, (self.capped, self.capped))))
@@ -79,166 +85,11 @@ impl<R: Real> Cylinder<R> {
     }
 }
 
-/// What shapes around an axis want to know of a ray: the reciprocal of its direction's squared
-/// length.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Nearest<R: Real> {
-    inverse_squared: R,
-}
-
-impl<R: Real> Nearest<R> {
-    /// One division.
-    pub(super) fn of(ray: &Ray<R>) -> Self {
-        let d = ray.direction();
-        Self { inverse_squared: R::ONE / R::narrow(d.dot(d)) }
-    }
-}
-
-/// A ray as an axis sees it: split into the parts across and along, and taken from near the middle.
-#[derive(Clone, Copy)]
-pub(super) struct Frame<R: Real> {
-    /// The ray's parameter at which it is taken; everything else is in steps from there.
-    pub(super) start: R,
-    /// From the axis to the ray's point.
-    pub(super) q: Vec3<R>,
-    /// The direction across the axis.
-    pub(super) d: Vec3<R>,
-    /// The height of the ray's point above the middle.
-    pub(super) z: R,
-    /// The direction along the axis.
-    pub(super) dz: R,
-}
-
-/// Which part of the surface a crossing lies on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Part {
-    Wall,
-    Base,
-    Apex,
-}
-
-/// A crossing: the step from [`Frame::start`], and where.
-pub(super) type Crossing<R> = (R, Part);
-
-/// Where the ray enters and where it leaves.
-pub(super) type Crossings<R> = [Option<Crossing<R>>; 2];
-
-impl<R: Real> Frame<R> {
-    pub(super) fn of(ray: &Ray<R>, nearest: &Nearest<R>, middle: Vec3<R>, axis: Vec3<R>) -> Self {
-        let f = middle - ray.origin();
-        let d = ray.direction();
-        let start = R::narrow(f.dot(d)) * nearest.inverse_squared;
-        let q = d * start - f;
-        let (z, dz) = (R::narrow(q.dot(axis)), R::narrow(d.dot(axis)));
-        Self { start, q: q - axis * z, d: d - axis * dz, z, dz }
-    }
-
-    /// The same taken from another of the ray's points.
-    pub(super) fn moved(self, step: R) -> Self {
-        Self {
-            start: self.start + step,
-            q: self.q + self.d * step,
-            z: self.z + self.dz * step,
-            ..self
-        }
-    }
-
-    /// Between which steps the height is at most `half` from the middle.
-    pub(super) fn slab(&self, half: R) -> Option<(R, R)> {
-        let (base, apex) = ((-half - self.z) / self.dz, (half - self.z) / self.dz);
-        if self.dz > R::ZERO {
-            Some((base, apex))
-        } else if self.dz < R::ZERO {
-            Some((apex, base))
-        } else {
-            (self.z.abs() <= half).then_some((-R::INFINITY, R::INFINITY))
-        }
-    }
-
-    /// The crossings of a convex wall between two planes of which some are `closed` (base, apex).
-    pub(super) fn ends(&self, wall: (R, R), slab: (R, R), closed: (bool, bool)) -> Crossings<R> {
-        let ((enter, leave), (lo, hi)) = (wall, slab);
-        let upwards = self.dz > R::ZERO;
-        let (first, last) =
-            if upwards { (Part::Base, Part::Apex) } else { (Part::Apex, Part::Base) };
-        let closed = if upwards { closed } else { (closed.1, closed.0) };
-        let near = if enter >= lo {
-            (enter <= hi).then_some((enter, Part::Wall))
-        } else {
-            (closed.0 && lo <= leave).then_some((lo, first))
-        };
-        let far = if leave <= hi {
-            (leave >= lo).then_some((leave, Part::Wall))
-        } else {
-            (closed.1 && hi >= enter).then_some((hi, last))
-        };
-        [near, far]
-    }
-
-    /// The crossing a hit came from: that with this `t`, or the nearer one if [`settle`] moved it.
-    pub(super) fn origin_of(&self, crossings: Crossings<R>, t: R) -> Option<Crossing<R>> {
-        let off = |c: &Crossing<R>| (self.start + c.0 - t).abs();
-        match crossings {
-            [Some(a), Some(b)] => Some(if off(&a) <= off(&b) { a } else { b }),
-            [a, b] => a.or(b),
-        }
-    }
-
-    /// The first crossing that counts.
-    pub(super) fn select(
-        &self,
-        crossings: Crossings<R>,
-        ray: &Ray<R>,
-        bounds: Aabb<R>,
-        (min, max): (R, R),
-    ) -> Option<R> {
-        crossings
-            .into_iter()
-            .flatten()
-            .filter_map(|(step, _)| settle(ray, bounds, self.start + step))
-            .find(|t| *t > min && *t <= max)
-    }
-}
-
-/// Direction and distance from one point to another; a direction of 0 where there is none.
-pub(super) fn axis_between<R: Real>(base: Vec3<R>, apex: Vec3<R>) -> (Vec3<R>, R) {
-    let way = apex - base;
-    (way.unit().unwrap_or_default(), way.length())
-}
-
-/// Whether an axis has length 1 as far as rounding goes.
-pub(super) fn is_unit<R: Real>(axis: Vec3<R>) -> bool {
-    (axis.length() - R::ONE).abs() <= R::ulps(16)
-}
-
-/// The box around two discs, rounded outwards.
-pub(super) fn around_discs<R: Real>(
-    base: Vec3<R>,
-    axis: Vec3<R>,
-    height: R,
-    base_radius: R,
-    apex_radius: R,
-) -> Aabb<R> {
-    // A disc reaches as far along an axis as its normal is tilted away from it. Not by
-    // √(1 - a²), which is noise for an upright one.
-    let tilt = |along: Axis| {
-        let (u, v) = along.others();
-        let (u, v) = (axis.along(u), axis.along(v));
-        R::sqrt_wide(u.times(u) + v.times(v)) * (R::ONE + R::ulps(4))
-    };
-    let tilt = Vec3::<R>::from_array(Axis::ALL.map(tilt));
-    let apex = base + axis * height;
-    let (b, a) = (tilt * base_radius, tilt * apex_radius);
-    let all = Aabb::around([base - b, base + b, apex - a, apex + a]);
-    let all = all.grown(R::ulps(2) * (height + base_radius.max(apex_radius)));
-    Aabb { lo: all.lo.map(R::next_down), hi: all.hi.map(R::next_up) }
-}
-
 impl<R: Real> Shape<R> for Cylinder<R> {
-    type PerRay = Nearest<R>;
+    type PerRay = Length<R>;
 
-    fn per_ray(ray: &Ray<R>) -> Nearest<R> {
-        Nearest::of(ray)
+    fn per_ray(ray: &Ray<R>) -> Length<R> {
+        Length::of(ray)
     }
 
     /// An axis whose length is not 1 is degenerate too.
@@ -259,27 +110,24 @@ impl<R: Real> Shape<R> for Cylinder<R> {
     }
 
     fn bounds(&self) -> Aabb<R> {
-        around_discs(self.base, self.axis, self.height, self.radius, self.radius)
+        self.hull().bounds()
     }
 
-    fn hit(&self, ray: &Ray<R>, nearest: &Nearest<R>, min: R, max: R) -> Option<R> {
-        let (frame, crossings) = self.crossings(ray, nearest)?;
+    fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
+        let (frame, crossings) = self.crossings(ray, length)?;
         if let [None, None] = crossings {
             return None;
         }
-        frame.select(crossings, ray, self.bounds(), (min, max))
+        frame.select(crossings, ray, &self.hull(), (min, max))
     }
 
     fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
-        let found = self.crossings(ray, &Nearest::of(ray));
+        let found = self.crossings(ray, &Length::of(ray));
         match found.and_then(|(frame, all)| Some((frame, frame.origin_of(all, t)?))) {
             Some((_, (_, Part::Base))) => -self.axis,
             Some((_, (_, Part::Apex))) => self.axis,
             Some((frame, (step, Part::Wall))) => frame.moved(step).q,
-            None => {
-                let p = ray.at(t) - self.base;
-                p - self.axis * R::narrow(p.dot(self.axis))
-            }
+            None => self.hull().across(ray.at(t)),
         }
     }
 }
@@ -360,7 +208,7 @@ mod tests {
             ([0.0, 5.0, 0.5], [0.0, 2.0, 0.5], Vec3::Y),
         ] {
             let r = Ray::new(Vec3::from(o), Vec3::from(to) - Vec3::from(o)).unwrap();
-            let t = c.hit(&r, &Nearest::of(&r), 0.0, 2.0).unwrap();
+            let t = c.hit(&r, &Length::of(&r), 0.0, 2.0).unwrap();
             assert!((t - 1.0).abs() < 1.0e-6);
             assert!((c.normal(&r, t).normalize() - n).length() < 1.0e-6, "{o:?}");
         }

@@ -10,6 +10,7 @@
 //!   seen edge-on has no well-defined `t`), it ends in [`settle`].
 //! * A shape that passed [`Shape::check`] is never hit at a `t` that is not a number.
 
+mod axial;
 mod r#box;
 mod cone;
 mod cylinder;
@@ -20,7 +21,7 @@ mod triangle;
 
 pub use r#box::AxisBox;
 pub use cone::Cone;
-pub use cylinder::{Cylinder, Nearest};
+pub use cylinder::Cylinder;
 pub use plane::Plane;
 pub use polygon::Polygon;
 pub use sphere::{Length, Sphere};

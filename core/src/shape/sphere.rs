@@ -26,13 +26,22 @@ impl<R: Real> Sphere<R> {
     }
 }
 
-/// What a sphere wants to know of a ray: the reciprocals of its direction's length.
+/// What round shapes want to know of a ray: the reciprocals of its direction's length.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Length<R: Real> {
     /// 1 / |d|²
-    inverse_squared: R,
+    pub(super) inverse_squared: R,
     /// 1 / |d|
     inverse: R,
+}
+
+impl<R: Real> Length<R> {
+    /// A division and a square root.
+    pub(super) fn of(ray: &Ray<R>) -> Self {
+        let d = ray.direction();
+        let inverse_squared = R::ONE / R::narrow(d.dot(d));
+        Self { inverse_squared, inverse: inverse_squared.sqrt() }
+    }
 }
 
 impl<R: Real> Sphere<R> {
@@ -60,9 +69,7 @@ impl<R: Real> Shape<R> for Sphere<R> {
     type PerRay = Length<R>;
 
     fn per_ray(ray: &Ray<R>) -> Length<R> {
-        let d = ray.direction();
-        let inverse_squared = R::ONE / R::narrow(d.dot(d));
-        Length { inverse_squared, inverse: inverse_squared.sqrt() }
+        Length::of(ray)
     }
 
     fn check(&self) -> Result<(), ShapeError> {

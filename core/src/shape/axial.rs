@@ -1,0 +1,198 @@
+//! What the solids around an axis share: their hull, and a ray as the axis sees it.
+
+use super::{Length, settle};
+use crate::geom::{Aabb, Ray};
+use crate::num::{Axis, Real, Vec3, Vector};
+
+/// Two discs across an axis and all between them: the solid itself, or what an open one surrounds.
+#[derive(Clone, Copy)]
+pub(super) struct Hull<R: Real> {
+    pub(super) base: Vec3<R>,
+    /// Of length 1, as far as [`is_unit`] can tell.
+    pub(super) axis: Vec3<R>,
+    pub(super) height: R,
+    /// At height 0.
+    pub(super) base_radius: R,
+    /// How much the radius grows in a unit of height.
+    pub(super) growth: R,
+    /// At the other end; with `growth` it is told twice, so that nothing is rounded.
+    pub(super) apex_radius: R,
+}
+
+impl<R: Real> Hull<R> {
+    /// The middle of the axis.
+    pub(super) fn middle(&self) -> Vec3<R> {
+        self.base + self.axis * (self.height * R::HALF)
+    }
+
+    /// The way from the axis to a point, across it.
+    pub(super) fn across(&self, p: Vec3<R>) -> Vec3<R> {
+        let p = p - self.base;
+        p - self.axis * R::narrow(p.dot(self.axis))
+    }
+
+    /// The box around the discs, rounded outwards.
+    pub(super) fn bounds(&self) -> Aabb<R> {
+        let Self { base, axis, height, base_radius, apex_radius, .. } = *self;
+        // A disc reaches as far along an axis as its normal is tilted away from it. Not by
+        // √(1 - a²), which is noise for an upright one.
+        let tilt = |along: Axis| {
+            let (u, v) = along.others();
+            let (u, v) = (axis.along(u), axis.along(v));
+            R::sqrt_wide(u.times(u) + v.times(v)) * (R::ONE + R::ulps(4))
+        };
+        let tilt = Vec3::<R>::from_array(Axis::ALL.map(tilt));
+        let apex = base + axis * height;
+        let (b, a) = (tilt * base_radius, tilt * apex_radius);
+        let all = Aabb::around([base - b, base + b, apex - a, apex + a]);
+        let all = all.grown(R::ulps(2) * (height + base_radius.max(apex_radius)));
+        Aabb { lo: all.lo.map(R::next_down), hi: all.hi.map(R::next_up) }
+    }
+
+    /// What [`settle`] makes of a crossing, without the three square roots of the box where the
+    /// crossing is plainly close to the solid, as almost all are.
+    fn settle(&self, ray: &Ray<R>, t: R) -> Option<R> {
+        if self.is_close(ray.at(t), ray.slack()) { Some(t) } else { settle(ray, self.bounds(), t) }
+    }
+
+    /// Whether a point certainly lies within `slack` of the hull, and so in its box grown by that.
+    ///
+    /// It does when it is half of that away at most both along the axis and across: together √½ of
+    /// it. What rounding adds is in proportion to the solid, in units of ε (height + radius): along
+    /// the axis 32 for an axis that is a unit within 16 ε, and 4 for the products; across 8. Taking
+    /// 20 off both halves makes up for all of it: (s/2 + 16)² + (s/2 - 12)² <= s² from s = 33, and
+    /// there is nothing left of them below 40.
+    fn is_close(&self, p: Vec3<R>, slack: R) -> bool {
+        let size = self.height + self.base_radius.max(self.apex_radius);
+        let margin = slack * R::HALF - R::ulps(20) * size;
+        // Squares of less have no digits left to compare.
+        if !(margin > R::EPSILON * R::EPSILON) {
+            return false;
+        }
+        let p = p - self.base;
+        let height = R::narrow(p.dot(self.axis));
+        let nearest = height.clamp(R::ZERO, self.height);
+        let off = p - self.axis * nearest;
+        let reach = self.base_radius + self.growth * nearest + margin;
+        // Less, not equal: both may be infinite.
+        (height - nearest).abs() <= margin && off.dot(off) < reach.times(reach)
+    }
+}
+
+/// A ray as an axis sees it: split into the parts across and along, and taken from near the middle.
+#[derive(Clone, Copy)]
+pub(super) struct Frame<R: Real> {
+    /// The ray's parameter at which it is taken; everything else is in steps from there.
+    pub(super) start: R,
+    /// From the axis to the ray's point.
+    pub(super) q: Vec3<R>,
+    /// The direction across the axis.
+    pub(super) d: Vec3<R>,
+    /// The height of the ray's point above the middle.
+    pub(super) z: R,
+    /// The direction along the axis.
+    pub(super) dz: R,
+}
+
+/// Which part of the surface a crossing lies on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    Wall,
+    Base,
+    Apex,
+}
+
+/// A crossing: the step from [`Frame::start`], and where.
+pub(super) type Crossing<R> = (R, Part);
+
+/// Where the ray enters and where it leaves.
+pub(super) type Crossings<R> = [Option<Crossing<R>>; 2];
+
+impl<R: Real> Frame<R> {
+    pub(super) fn of(ray: &Ray<R>, length: &Length<R>, middle: Vec3<R>, axis: Vec3<R>) -> Self {
+        let f = middle - ray.origin();
+        let d = ray.direction();
+        let start = R::narrow(f.dot(d)) * length.inverse_squared;
+        let q = d * start - f;
+        let (z, dz) = (R::narrow(q.dot(axis)), R::narrow(d.dot(axis)));
+        Self { start, q: q - axis * z, d: d - axis * dz, z, dz }
+    }
+
+    /// The same taken from another of the ray's points.
+    pub(super) fn moved(self, step: R) -> Self {
+        Self {
+            start: self.start + step,
+            q: self.q + self.d * step,
+            z: self.z + self.dz * step,
+            ..self
+        }
+    }
+
+    /// Between which steps the height is at most `half` from the middle.
+    pub(super) fn slab(&self, half: R) -> Option<(R, R)> {
+        let (base, apex) = ((-half - self.z) / self.dz, (half - self.z) / self.dz);
+        if self.dz > R::ZERO {
+            Some((base, apex))
+        } else if self.dz < R::ZERO {
+            Some((apex, base))
+        } else {
+            (self.z.abs() <= half).then_some((-R::INFINITY, R::INFINITY))
+        }
+    }
+
+    /// The crossings of a convex wall between two planes of which some are `closed` (base, apex).
+    pub(super) fn ends(&self, wall: (R, R), slab: (R, R), closed: (bool, bool)) -> Crossings<R> {
+        let ((enter, leave), (lo, hi)) = (wall, slab);
+        let upwards = self.dz > R::ZERO;
+        let (first, last) =
+            if upwards { (Part::Base, Part::Apex) } else { (Part::Apex, Part::Base) };
+        let closed = if upwards { closed } else { (closed.1, closed.0) };
+        let near = if enter >= lo {
+            (enter <= hi).then_some((enter, Part::Wall))
+        } else {
+            (closed.0 && lo <= leave).then_some((lo, first))
+        };
+        let far = if leave <= hi {
+            (leave >= lo).then_some((leave, Part::Wall))
+        } else {
+            (closed.1 && hi >= enter).then_some((hi, last))
+        };
+        [near, far]
+    }
+
+    /// The crossing a hit came from: that with this `t`, or the nearer one if [`Hull::settle`] moved it.
+    pub(super) fn origin_of(&self, crossings: Crossings<R>, t: R) -> Option<Crossing<R>> {
+        let off = |c: &Crossing<R>| (self.start + c.0 - t).abs();
+        match crossings {
+            [Some(a), Some(b)] => Some(if off(&a) <= off(&b) { a } else { b }),
+            [a, b] => a.or(b),
+        }
+    }
+
+    /// The first crossing that counts.
+    pub(super) fn select(
+        &self,
+        crossings: Crossings<R>,
+        ray: &Ray<R>,
+        hull: &Hull<R>,
+        (min, max): (R, R),
+    ) -> Option<R> {
+        let counts = |crossing: Option<Crossing<R>>| {
+            let t = hull.settle(ray, self.start + crossing?.0)?;
+            (t > min && t <= max).then_some(t)
+        };
+        let [near, far] = crossings;
+        counts(near).or_else(|| counts(far))
+    }
+}
+
+/// Direction and distance from one point to another; a direction of 0 where there is none.
+pub(super) fn axis_between<R: Real>(base: Vec3<R>, apex: Vec3<R>) -> (Vec3<R>, R) {
+    let way = apex - base;
+    (way.unit().unwrap_or_default(), way.length())
+}
+
+/// Whether an axis has length 1 as far as rounding goes.
+pub(super) fn is_unit<R: Real>(axis: Vec3<R>) -> bool {
+    (axis.length() - R::ONE).abs() <= R::ulps(16)
+}
