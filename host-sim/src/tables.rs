@@ -1,7 +1,7 @@
 //! From a description to the tables that the core traces: one number type, one table a kind.
 
 use kibiray::num::{Real, Vec3, Vector};
-use kibiray::scene::{Light, Material, Paint, Scene, SceneError, Solids, Triangles, View};
+use kibiray::scene::{Light, Material, Paint, Pattern, Scene, SceneError, Solids, Triangles, View};
 use kibiray::shape::{
     AxisBox, Cone, Cylinder, Plane, Polygon, Shape, ShapeError, Sphere, Triangle,
 };
@@ -351,5 +351,6 @@ fn material<R: Real>(m: &description::Material) -> Material<R> {
         shine: R::from_f64(m.shine),
         transmission: R::from_f64(m.transmission),
         index: R::from_f64(m.index),
+        pattern: Pattern::Plain,
     }
 }

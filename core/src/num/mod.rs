@@ -84,6 +84,15 @@ pub trait Real:
     fn from_i32(i: i32) -> Self;
     /// Rounds towards 0; out of range gives the nearest end, not-a-number gives 0.
     fn to_i32(self) -> i32;
+    /// Rounds down; out of range and not-a-number as [`Real::to_i32`].
+    fn floor_to_i32(self) -> i32 {
+        let towards_zero = self.to_i32();
+        if Self::from_i32(towards_zero) > self {
+            towards_zero.wrapping_sub(1)
+        } else {
+            towards_zero
+        }
+    }
     /// Neither infinite nor not-a-number.
     fn is_finite(self) -> bool;
     /// The square root, correctly rounded; of a negative number: not-a-number, or 0 where the

@@ -3,7 +3,18 @@
 
 use crate::num::{Real, Vec3, Vector};
 
-/// A surface; 32 bytes in `f32`.
+/// How a surface's colour changes from place to place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Pattern<R: Real> {
+    /// Not at all.
+    #[default]
+    Plain,
+    /// Squares of this edge length take turns with another colour; across the two axes that the
+    /// surface runs along most.
+    Checker(R, Vec3<R>),
+}
+
+/// A surface; 48 bytes in `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material<R: Real> {
     /// Colour of diffusely reflected light, each component usually 0 to 1.
@@ -18,26 +29,53 @@ pub struct Material<R: Real> {
     pub transmission: R,
     /// Index of refraction; 0 or 1: light goes straight on.
     pub index: R,
+    /// Where the colour is another one.
+    pub pattern: Pattern<R>,
 }
 
 impl<R: Real> Default for Material<R> {
     /// A matt white.
     fn default() -> Self {
+        Self::matt(Vec3::<R>::splat(R::ONE))
+    }
+}
+
+impl<R: Real> Material<R> {
+    /// A surface that only reflects diffusely: something to start from in constants.
+    pub const fn matt(color: Vec3<R>) -> Self {
         Self {
-            color: Vec3::<R>::splat(R::ONE),
+            color,
             diffuse: R::ONE,
             specular: R::ZERO,
             shine: R::ONE,
             transmission: R::ZERO,
             index: R::ONE,
+            pattern: Pattern::Plain,
         }
     }
-}
 
-impl<R: Real> Material<R> {
     pub(super) fn is_usable(&self) -> bool {
         let shares = [self.diffuse, self.specular, self.shine, self.transmission, self.index];
-        self.color.is_finite() && shares.iter().all(|s| s.is_finite() && *s >= R::ZERO)
+        let pattern = match self.pattern {
+            Pattern::Plain => true,
+            Pattern::Checker(edge, color) => {
+                edge > R::ZERO && (R::ONE / edge).is_finite() && color.is_finite()
+            }
+        };
+        let shares = shares.iter().all(|s| s.is_finite() && *s >= R::ZERO);
+        self.color.is_finite() && shares && pattern
+    }
+
+    /// The colour at a point of a surface with that normal.
+    pub fn color_at(&self, point: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
+        match self.pattern {
+            Pattern::Plain => self.color,
+            Pattern::Checker(edge, other) => {
+                let (u, v) = normal.major_axis().others();
+                let square = |axis| (point.along(axis) / edge).floor_to_i32();
+                if (square(u) ^ square(v)) & 1 == 0 { self.color } else { other }
+            }
+        }
     }
 }
 
@@ -57,4 +95,41 @@ pub struct Paint {
     pub first: usize,
     /// Place in the table of materials.
     pub material: u16,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec3, vec3};
+
+    #[test]
+    fn checkers_take_turns_across_zero() {
+        let black = Vec3::ZERO;
+        let floor =
+            Material { pattern: Pattern::Checker(0.5, black), ..Material::<f32>::default() };
+        // The height does not count, however rounding moves it.
+        for (x, z, expected) in [
+            (0.1, 0.1, Vec3::ONE),
+            (-0.1, 0.1, black),
+            (-0.1, -0.1, Vec3::ONE),
+            (0.6, 0.1, black),
+            (0.6, -0.6, Vec3::ONE),
+        ] {
+            for y in [-1e-7, 0.0, 1e-7] {
+                assert_eq!(floor.color_at(vec3(x, y, z), Vec3::Y), expected, "{x} {z}");
+            }
+        }
+    }
+
+    #[test]
+    fn unusable_numbers_are_told() {
+        let usable = |m: Material<f32>| m.is_usable();
+        assert!(usable(Material::default()));
+        assert!(!usable(Material { diffuse: -1.0, ..Material::default() }));
+        assert!(!usable(Material { index: f32::NAN, ..Material::default() }));
+        for edge in [0.0, -1.0, f32::NAN, 1e-45] {
+            let pattern = Pattern::Checker(edge, Vec3::ONE);
+            assert!(!usable(Material { pattern, ..Material::default() }), "{edge}");
+        }
+    }
 }

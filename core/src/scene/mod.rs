@@ -9,7 +9,7 @@ mod solids;
 
 pub use camera::{Camera, View, ViewError};
 pub(crate) use framing::Framing;
-pub use material::{Light, Material, Paint};
+pub use material::{Light, Material, Paint, Pattern};
 pub use shapes::Shapes;
 pub use solids::{Solids, Triangles};
 

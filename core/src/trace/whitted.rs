@@ -158,7 +158,8 @@ impl<R: Real> Bounce<R> {
 
     /// What the surface sends back of white light from a direction.
     fn reflected(&self, towards: Vec3<R>) -> Vec3<R> {
-        let Material { color, diffuse, specular, shine, .. } = self.material;
+        let Material { diffuse, specular, shine, .. } = self.material;
+        let color = self.material.color_at(self.surface.point, self.surface.normal);
         let cosine = R::narrow(self.surface.shading.dot(towards));
         let matt = color * (diffuse * cosine);
         if !(specular > R::ZERO) {

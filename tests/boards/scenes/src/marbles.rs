@@ -36,14 +36,7 @@ static FLOOR: [Triangle<f32>; 2] = {
     [Triangle::new(A, C, B), Triangle::new(A, D, C)]
 };
 
-const MATT: Material<f32> = Material {
-    color: V::new(0.9, 0.4, 0.2),
-    diffuse: 0.8,
-    specular: 0.0,
-    shine: 1.0,
-    transmission: 0.0,
-    index: 1.0,
-};
+const MATT: Material<f32> = Material { diffuse: 0.8, ..Material::matt(V::new(0.9, 0.4, 0.2)) };
 
 static MATERIALS: [Material<f32>; 4] = [
     MATT,
