@@ -145,7 +145,6 @@ impl<R: Real> Shape<R> for Cone<R> {
         Length::of(ray)
     }
 
-    /// An axis whose length is not 1 is degenerate too.
     fn check(&self) -> Result<(), ShapeError> {
         let radii = self.base_radius.abs() + self.apex_radius.abs();
         let reach = self.base.max_abs() + self.height.abs() + radii;
@@ -154,11 +153,10 @@ impl<R: Real> Shape<R> for Cone<R> {
         } else if self.base_radius < R::ZERO || self.apex_radius < R::ZERO || self.height < R::ZERO
         {
             Err(ShapeError::Negative)
-        } else if !(self.height > R::ZERO
-            && R::narrow(radii.times(radii)) > R::ZERO
-            && is_unit::<R>(self.axis))
-        {
+        } else if !(self.height > R::ZERO && R::narrow(radii.times(radii)) > R::ZERO) {
             Err(ShapeError::Degenerate)
+        } else if !is_unit::<R>(self.axis) {
+            Err(ShapeError::NotUnit)
         } else if workable(self.growth()) {
             Ok(())
         } else {
@@ -463,6 +461,6 @@ mod tests {
         assert_eq!(check(1.0e-15, 0.0, 1.0), Err(ShapeError::NotFinite));
         assert_eq!(check(f32::NAN, 0.0, 1.0), Err(ShapeError::NotFinite));
         let parts = Cone::<f32>::from_parts(Vec3::ZERO, Vec3::X * 2.0, 1.0, 1.0, 0.0, false);
-        assert_eq!(parts.check(), Err(ShapeError::Degenerate));
+        assert_eq!(parts.check(), Err(ShapeError::NotUnit));
     }
 }

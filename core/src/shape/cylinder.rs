@@ -92,20 +92,18 @@ impl<R: Real> Shape<R> for Cylinder<R> {
         Length::of(ray)
     }
 
-    /// An axis whose length is not 1 is degenerate too.
     fn check(&self) -> Result<(), ShapeError> {
         let reach = self.base.max_abs() + self.height.abs() + self.radius.abs();
         if !(self.base.is_finite() && self.axis.is_finite() && workable(reach)) {
             Err(ShapeError::NotFinite)
         } else if self.radius < R::ZERO || self.height < R::ZERO {
             Err(ShapeError::Negative)
-        } else if self.height > R::ZERO
-            && R::narrow(self.radius.times(self.radius)) > R::ZERO
-            && is_unit::<R>(self.axis)
-        {
+        } else if !(self.height > R::ZERO && R::narrow(self.radius.times(self.radius)) > R::ZERO) {
+            Err(ShapeError::Degenerate)
+        } else if is_unit::<R>(self.axis) {
             Ok(())
         } else {
-            Err(ShapeError::Degenerate)
+            Err(ShapeError::NotUnit)
         }
     }
 
@@ -346,7 +344,7 @@ mod tests {
         assert_eq!(check(1.0e13, 1.0), Err(ShapeError::NotFinite));
         assert_eq!(check(-1.0, 1.0), Ok(()));
         let parts = |axis, height| Cylinder::<f32>::from_parts(Vec3::ZERO, axis, height, 1.0, true);
-        assert_eq!(parts(Vec3::X * 1.01, 1.0).check(), Err(ShapeError::Degenerate));
+        assert_eq!(parts(Vec3::X * 1.01, 1.0).check(), Err(ShapeError::NotUnit));
         assert_eq!(parts(Vec3::X, -1.0).check(), Err(ShapeError::Negative));
         assert_eq!(parts(Vec3::NAN, 1.0).check(), Err(ShapeError::NotFinite));
         assert_eq!(parts(Vec3::X, 1.0).check(), Ok(()));

@@ -39,21 +39,29 @@ pub(crate) mod testing;
 pub enum ShapeError {
     /// A coordinate or a radius is infinite or not a number, or so great that products of it are.
     NotFinite,
-    /// It has no surface: a radius or a length of zero, coinciding or collinear corners.
+    /// It has no surface, or one too small to compute with: a length is zero or the product of two
+    /// is, corners coincide or lie in a line. In `f32` a sphere, cylinder or cone needs a radius
+    /// above 3e-23, a triangle sides above 4e-23 or so and a polygon above 2e-19.
     Degenerate,
     /// A radius or an extent is negative.
     Negative,
     /// A polygon has fewer than three corners.
     TooFewCorners,
+    /// The axis of a cylinder or a cone is not of length 1, or the normal of a plane or a polygon is
+    /// zero or so short that its square is.
+    NotUnit,
 }
 
 impl core::fmt::Display for ShapeError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
             Self::NotFinite => "a coordinate or radius is not finite, or too great to compute with",
-            Self::Degenerate => "it has no surface: a radius, length or area is zero",
+            Self::Degenerate => {
+                "it has no surface: a radius, length or area is zero or vanishes in products"
+            }
             Self::Negative => "a radius or an extent is negative",
             Self::TooFewCorners => "a polygon needs at least three corners",
+            Self::NotUnit => "its axis or its normal has no usable length: scale it to length 1",
         })
     }
 }

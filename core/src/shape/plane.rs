@@ -39,7 +39,7 @@ impl<R: Real> Shape<R> for Plane<R> {
         } else if R::narrow(n.dot(n)) > R::ZERO {
             Ok(())
         } else {
-            Err(ShapeError::Degenerate)
+            Err(ShapeError::NotUnit)
         }
     }
 
@@ -121,8 +121,8 @@ mod tests {
     #[test]
     fn degenerate_planes_are_refused() {
         let check = |p, n| Plane::<f32>::new(p, n).check();
-        assert_eq!(check(Vec3::ZERO, Vec3::ZERO), Err(ShapeError::Degenerate));
-        assert_eq!(check(Vec3::ZERO, Vec3::X * 1.0e-30), Err(ShapeError::Degenerate));
+        assert_eq!(check(Vec3::ZERO, Vec3::ZERO), Err(ShapeError::NotUnit));
+        assert_eq!(check(Vec3::ZERO, Vec3::X * 1.0e-30), Err(ShapeError::NotUnit));
         assert_eq!(check(Vec3::NAN, Vec3::X), Err(ShapeError::NotFinite));
         assert_eq!(check(Vec3::ZERO, vec3(0.0, f32::INFINITY, 1.0)), Err(ShapeError::NotFinite));
         assert_eq!(check(Vec3::X * 1.0e13, Vec3::X), Err(ShapeError::NotFinite));

@@ -30,7 +30,18 @@ impl<'a, R: Real> Polygon<'a, R> {
     /// A polygon around corners. Its normal is 0 where they span no area ([`Shape::check`] refuses
     /// that), and else has a greatest component of 1 to 2.
     pub fn new(vertices: &'a [R::Vec3]) -> Self {
-        Self { vertices, normal: newell::<R>(vertices) }
+        let size = match vertices.first() {
+            Some(first) => vertices.iter().fold(R::ZERO, |m, v| m.max((*v - *first).max_abs())),
+            None => R::ZERO,
+        };
+        if !(size > R::ZERO) {
+            return Self { vertices, normal: Vec3::<R>::default() };
+        }
+        // Scaled before the products, so that tiny polygons keep theirs.
+        let area = newell::<R>(vertices, size.scale_to_one().0);
+        let size = area.max_abs();
+        let normal = if size > R::ZERO { area * size.scale_to_one().0 } else { area };
+        Self { vertices, normal }
     }
 
     /// A polygon with a normal known beforehand; for constants.
@@ -59,18 +70,11 @@ impl<'a, R: Real> Polygon<'a, R> {
     }
 }
 
-/// Twice the area vector of an outline, brought to a greatest component of 1 to 2.
-///
-/// Taken from the first corner, so that it loses nothing far from the origin, and scaled before the
-/// products, so that tiny polygons keep theirs.
-fn newell<R: Real>(vertices: &[Vec3<R>]) -> Vec3<R> {
+/// Twice the area vector of an outline after scaling. Taken from the first corner, so that it loses
+/// nothing far from the origin.
+fn newell<R: Real>(vertices: &[Vec3<R>], scale: R) -> Vec3<R> {
     let zero = Vec3::<R>::default();
     let Some(first) = vertices.first() else { return zero };
-    let size = vertices.iter().fold(R::ZERO, |m, v| m.max((*v - *first).max_abs()));
-    if !(size > R::ZERO) {
-        return zero;
-    }
-    let (scale, _) = size.scale_to_one();
     let mut a = zero;
     let mut sum = zero;
     for v in vertices {
@@ -78,8 +82,7 @@ fn newell<R: Real>(vertices: &[Vec3<R>]) -> Vec3<R> {
         sum = sum + a.cross(b);
         a = b;
     }
-    let size = sum.max_abs();
-    if size > R::ZERO { sum * size.scale_to_one().0 } else { sum }
+    sum
 }
 
 impl<R: Real> Shape<R> for Polygon<'_, R> {
@@ -99,10 +102,13 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
             && workable(n.max_abs()))
         {
             Err(ShapeError::NotFinite)
-        } else if R::narrow(n.dot(n)) > R::ZERO && !newell::<R>(self.vertices).is_zero() {
+        } else if (newell::<R>(self.vertices, R::ONE) * R::EPSILON).is_zero() {
+            // The products that decide what is inside are those of parts of it: they need digits.
+            Err(ShapeError::Degenerate)
+        } else if R::narrow(n.dot(n)) > R::ZERO {
             Ok(())
         } else {
-            Err(ShapeError::Degenerate)
+            Err(ShapeError::NotUnit)
         }
     }
 
@@ -182,10 +188,12 @@ mod tests {
 
     #[test]
     fn the_normal_points_to_the_front_at_any_scale_and_place() {
-        for scale in [1.0e-30_f32, 1.0e-3, 1.0, 1.0e9] {
+        for scale in [1.0e-30_f32, 1.0e-18, 1.0e-3, 1.0, 1.0e9] {
             let corners = L.map(|v| v * scale);
             let p = Polygon::<f32>::new(&corners);
-            assert_eq!(p.check(), Ok(()), "{scale}");
+            // Of the least one only the normal can be told.
+            let tiny = Err(ShapeError::Degenerate);
+            assert_eq!(p.check(), if scale < 1.0e-19 { tiny } else { Ok(()) }, "{scale}");
             assert!(p.normal.x == 0.0 && p.normal.y == 0.0 && (1.0..2.0).contains(&p.normal.z));
         }
         let far = L.map(|v| v + vec3(5000.0, -7000.0, 9000.0));
@@ -368,7 +376,7 @@ mod tests {
         assert_eq!(d(&[Vec3::ZERO, Vec3::X, Vec3::NAN]), Err(ShapeError::NotFinite));
         assert_eq!(d(&[Vec3::ZERO, Vec3::X * 1e13, Vec3::Y]), Err(ShapeError::NotFinite));
         let with = |n| Polygon::<f32>::with_normal(&L, n).check();
-        assert_eq!(with(Vec3::ZERO), Err(ShapeError::Degenerate));
+        assert_eq!(with(Vec3::ZERO), Err(ShapeError::NotUnit));
         assert_eq!(with(Vec3::NAN), Err(ShapeError::NotFinite));
         assert_eq!(with(Vec3::Z), Ok(()));
         // Even so it is only a miss, not a panic.

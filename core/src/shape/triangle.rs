@@ -25,30 +25,39 @@ impl<R: Real> Triangle<R> {
         Self { corners: [a, b, c] }
     }
 
-    /// The weights of the corners at the place where a ray passes, of sum not 0; `None` when it
-    /// passes outside or sees the triangle edge-on.
-    fn weights(&self, ray: &Ray<R>, shear: &Shear<R>) -> Option<([R::Wide; 3], [R; 3])> {
-        let [a, b, c] = self.corners.map(|corner| shear.apply(corner - ray.origin()));
-        let u = edge::<R>(c, b);
-        let v = edge::<R>(a, c);
-        let w = edge::<R>(b, a);
-        let zero = R::Wide::default();
-        let some_negative = u < zero || v < zero || w < zero;
-        let some_positive = u > zero || v > zero || w > zero;
-        // Signs differ: outside. All zero: edge-on or not a number.
-        (some_negative != some_positive).then_some(([u, v, w], [a.2, b.2, c.2]))
+    /// Twice its area, as a vector towards the front.
+    fn area_vector(&self) -> Vec3<R> {
+        let [a, b, c] = self.corners;
+        (b - a).cross(c - a)
     }
 
-    /// The weights of the corners at a hit, of sum 1: barycentric coordinates.
+    /// The weights of the corners at the place where the line of a ray meets the plane, with one
+    /// sign if that is inside, and the distances of the corners along the ray.
+    fn weights(&self, ray: &Ray<R>, shear: &Shear<R>) -> ([R::Wide; 3], [R; 3]) {
+        let [a, b, c] = self.corners.map(|corner| shear.apply(corner - ray.origin()));
+        ([edge::<R>(c, b), edge::<R>(a, c), edge::<R>(b, a)], [a.2, b.2, c.2])
+    }
+
+    /// The weights of the corners at a hit, each from 0 to 1 and of sum 1: barycentric coordinates.
+    ///
+    /// For a ray that passes outside, of a place on the outline; the same for all corners when the
+    /// ray sees the triangle edge-on or from too far away to tell.
     pub fn barycentric(&self, ray: &Ray<R>) -> [R; 3] {
-        match self.weights(ray, &Shear::of(ray)) {
-            Some((w, _)) => [
-                R::mean(w, [R::ONE, R::ZERO, R::ZERO]),
-                R::mean(w, [R::ZERO, R::ONE, R::ZERO]),
-                R::mean(w, [R::ZERO, R::ZERO, R::ONE]),
-            ],
-            None => [R::ONE, R::ZERO, R::ZERO],
+        let (weights, _) = self.weights(ray, &Shear::of(ray));
+        let zero = R::Wide::default();
+        let sum = |[u, v, w]: [R::Wide; 3]| u + v + w;
+        // What is not a number is neither and counts as 0.
+        let positive = weights.map(|w| if w >= zero { w } else { zero });
+        let negative = weights.map(|w| if w <= zero { w } else { zero });
+        let weights = if sum(positive) >= -sum(negative) { positive } else { negative };
+        if sum(weights) == zero || !R::narrow(sum(weights)).is_finite() {
+            return [R::ONE / R::from_i32(3); 3];
         }
+        [
+            R::mean(weights, [R::ONE, R::ZERO, R::ZERO]),
+            R::mean(weights, [R::ZERO, R::ONE, R::ZERO]),
+            R::mean(weights, [R::ZERO, R::ZERO, R::ONE]),
+        ]
     }
 }
 
@@ -102,7 +111,7 @@ impl<R: Real> Shape<R> for Triangle<R> {
         let reach = bounds.max_abs();
         if !(self.corners.iter().all(|c| c.is_finite()) && workable(reach)) {
             Err(ShapeError::NotFinite)
-        } else if is_degenerate::<R>(self.corners) {
+        } else if self.area_vector().is_zero() {
             Err(ShapeError::Degenerate)
         } else {
             Ok(())
@@ -114,26 +123,21 @@ impl<R: Real> Shape<R> for Triangle<R> {
     }
 
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        let (weights, depths) = self.weights(ray, shear)?;
+        let (weights, depths) = self.weights(ray, shear);
+        let zero = R::Wide::default();
+        let some_negative = weights.iter().any(|w| *w < zero);
+        let some_positive = weights.iter().any(|w| *w > zero);
+        if some_negative == some_positive {
+            // Signs differ: outside. All zero: edge-on or not a number.
+            return None;
+        }
         let t = settle(ray, self.bounds(), R::mean(weights, depths))?;
         (t > min && t <= max).then_some(t)
     }
 
     fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {
-        let [a, b, c] = self.corners;
-        (b - a).cross(c - a)
+        self.area_vector()
     }
-}
-
-/// Whether three corners span no area, judged after scaling so that tiny triangles are not.
-fn is_degenerate<R: Real>([a, b, c]: [Vec3<R>; 3]) -> bool {
-    let (p, q) = (b - a, c - a);
-    let size = p.max_abs().max(q.max_abs());
-    if !(size > R::ZERO) {
-        return true;
-    }
-    let (scale, _) = size.scale_to_one();
-    (p * scale).cross(q * scale).is_zero()
 }
 
 #[cfg(test)]
@@ -208,6 +212,8 @@ mod tests {
         assert_eq!(d(Vec3::ZERO, Vec3::X, Vec3::X * 3.0), Err(ShapeError::Degenerate));
         assert_eq!(d(Vec3::ZERO, Vec3::NAN, Vec3::X), Err(ShapeError::NotFinite));
         assert_eq!(d(Vec3::ZERO, Vec3::X * 1e13, Vec3::X), Err(ShapeError::NotFinite));
-        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-30, Vec3::Y * 1e-30), Ok(()));
+        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-30, Vec3::Y * 1e-30), Err(ShapeError::Degenerate));
+        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-24, Vec3::Y * 1e-24), Err(ShapeError::Degenerate));
+        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-22, Vec3::Y * 1e-22), Ok(()));
     }
 }
