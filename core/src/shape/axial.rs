@@ -5,7 +5,7 @@ use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, Real, Vec3, Vector};
 
 /// Two discs across an axis and all between them: the solid itself, or what an open one surrounds.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Hull<R: Real> {
     pub(super) base: Vec3<R>,
     /// Of length 1, as far as [`is_unit`] can tell.
@@ -195,4 +195,46 @@ pub(super) fn axis_between<R: Real>(base: Vec3<R>, apex: Vec3<R>) -> (Vec3<R>, R
 /// Whether an axis has length 1 as far as rounding goes.
 pub(super) fn is_unit<R: Real>(axis: Vec3<R>) -> bool {
     (axis.length() - R::ONE).abs() <= R::ulps(16)
+}
+
+/// Whether a length is great enough to compute with its square.
+pub(super) fn keeps_digits<R: Real>(length: R) -> bool {
+    let part = length * super::part::<R>();
+    part.times(part) > R::Wide::default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::testing::Random;
+
+    extern crate std;
+
+    #[test]
+    fn what_is_close_is_in_the_grown_box() {
+        let mut random = Random(41);
+        let mut close = 0;
+        for i in 0..400_000_u32 {
+            // As far from a unit as passes.
+            let axis = random.direction() * (1.0 + f32::ulps(14) * random.signed());
+            assert!(is_unit::<f32>(axis));
+            let (height, a, b) =
+                (random.within(0.01, 1.0), random.within(0.0, 1.0), random.within(0.1, 1.0));
+            let (a, b) = if i % 2 == 0 { (a, b) } else { (b, a) };
+            let base = random.vector() * 3.0;
+            let growth = (b - a) / height;
+            let hull = Hull::<f32> { base, axis, height, base_radius: a, growth, apex_radius: b };
+            let slack = f32::ulps(32) * random.within(0.5, 20.0);
+            // Around the rims and the wall, by up to twice the slack.
+            let up = [0.0, height, random.within(0.0, height)][i as usize % 3];
+            let out = axis.cross(random.direction()).normalize() * (a + growth * up);
+            let p = base + axis * up + out + random.vector() * slack * 2.0;
+            if hull.is_close(p, slack) {
+                close += 1;
+                assert!(hull.bounds().grown(slack).contains(p), "{hull:?} {p} {slack}");
+            }
+        }
+        std::println!("{close}");
+        assert!(close > 40_000, "{close}");
+    }
 }

@@ -83,7 +83,7 @@ impl<R: Real> Shape<R> for AxisBox<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::testing::{Random, all_hits, only_numbers_are_hits, ray};
+    use crate::shape::testing::{Random, all_hits, hit_or_refused, only_numbers_are_hits, ray};
     use glam::{Vec3, vec3};
 
     extern crate std;
@@ -232,6 +232,14 @@ mod tests {
     fn only_numbers_are_hits_of_boxes() {
         only_numbers_are_hits(&CUBE);
         only_numbers_are_hits(&AxisBox::<f32>::new(vec3(-0.3, 0.5, 0.0), vec3(0.7, 0.5, 1.0)));
+    }
+
+    #[test]
+    fn boxes_of_every_size_are_hit_or_refused() {
+        hit_or_refused(|random, place, size| {
+            let (a, b) = (place + random.vector() * size, place + random.vector() * size);
+            (AxisBox::<f32>::new(a.min(b), a.max(b)), [(a + b) * 0.5])
+        });
     }
 
     #[test]

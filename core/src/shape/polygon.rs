@@ -8,7 +8,7 @@
 //! (I. Sutherland, R. Sproull, R. Schumacker, ACM Computing Surveys 6(1), 1974, appendix).
 
 use super::triangle::edge;
-use super::{Shape, ShapeError, Shear, settle, workable};
+use super::{Shape, ShapeError, Shear, part, settle, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -102,8 +102,8 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
             && workable(n.max_abs()))
         {
             Err(ShapeError::NotFinite)
-        } else if (newell::<R>(self.vertices, R::ONE) * R::EPSILON).is_zero() {
-            // The products that decide what is inside are those of parts of it: they need digits.
+        } else if newell::<R>(self.vertices, part()).is_zero() {
+            // What is inside is decided by products over parts of it.
             Err(ShapeError::Degenerate)
         } else if R::narrow(n.dot(n)) > R::ZERO {
             Ok(())
@@ -137,7 +137,7 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::testing::{Random, all_hits, only_numbers_are_hits, ray};
+    use crate::shape::testing::{Random, all_hits, hit_or_refused, only_numbers_are_hits, ray};
     use glam::{DVec3, Vec3, vec3};
 
     extern crate std;
@@ -148,6 +148,18 @@ mod tests {
         only_numbers_are_hits(&Polygon::<f32>::new(&L));
         let tilted = L.map(|v| vec3(v.x, v.y + 0.3 * v.x, v.x - v.y));
         only_numbers_are_hits(&Polygon::<f32>::new(&tilted));
+    }
+
+    #[test]
+    fn polygons_of_every_size_are_hit_or_refused() {
+        hit_or_refused(|random, place, size| {
+            let (u, v) = (random.direction() * size, random.direction() * size);
+            let corners: Vec<Vec3> = L.iter().map(|c| place + u * c.x + v * c.y).collect();
+            (
+                Polygon::<f32>::new(corners.leak()),
+                [(0.4, 0.6), (0.5, 1.0)].map(|(x, y)| place + u * x + v * y),
+            )
+        });
     }
 
     const L: [Vec3; 6] = [
@@ -188,12 +200,12 @@ mod tests {
 
     #[test]
     fn the_normal_points_to_the_front_at_any_scale_and_place() {
-        for scale in [1.0e-30_f32, 1.0e-18, 1.0e-3, 1.0, 1.0e9] {
+        for scale in [1.0e-30_f32, 1.0e-21, 1.0e-3, 1.0, 1.0e9] {
             let corners = L.map(|v| v * scale);
             let p = Polygon::<f32>::new(&corners);
             // Of the least one only the normal can be told.
             let tiny = Err(ShapeError::Degenerate);
-            assert_eq!(p.check(), if scale < 1.0e-19 { tiny } else { Ok(()) }, "{scale}");
+            assert_eq!(p.check(), if scale < 1.0e-22 { tiny } else { Ok(()) }, "{scale}");
             assert!(p.normal.x == 0.0 && p.normal.y == 0.0 && (1.0..2.0).contains(&p.normal.z));
         }
         let far = L.map(|v| v + vec3(5000.0, -7000.0, 9000.0));

@@ -107,7 +107,7 @@ impl<R: Real> Shape<R> for Sphere<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::testing::{all_hits, only_numbers_are_hits, ray};
+    use crate::shape::testing::{all_hits, hit_or_refused, only_numbers_are_hits, ray};
 
     const UNIT: Sphere<f32> = Sphere::new(glam::Vec3::ZERO, 1.0);
 
@@ -160,6 +160,13 @@ mod tests {
     fn only_numbers_are_hits_of_spheres() {
         only_numbers_are_hits(&UNIT);
         only_numbers_are_hits(&Sphere::new(glam::vec3(0.2, -0.5, 0.3), 0.4));
+    }
+
+    #[test]
+    fn spheres_of_every_size_are_hit_or_refused() {
+        hit_or_refused(|random, place, size| {
+            (Sphere::<f32>::new(place, random.within(0.01, 1.0) * size), [place])
+        });
     }
 
     #[test]

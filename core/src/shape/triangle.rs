@@ -143,7 +143,7 @@ impl<R: Real> Shape<R> for Triangle<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::testing::{all_hits, only_numbers_are_hits, ray};
+    use crate::shape::testing::{Random, all_hits, hit_or_refused, only_numbers_are_hits, ray};
     use glam::{Vec3, vec3};
 
     #[test]
@@ -203,6 +203,40 @@ mod tests {
         only_numbers_are_hits(&Triangle::new(Vec3::ZERO, Vec3::X, Vec3::Y));
         let oblique = [vec3(0.1, 0.2, 0.3), vec3(1.0, 0.3, -0.4), vec3(-0.4, 0.9, 0.35)];
         only_numbers_are_hits(&Triangle { corners: oblique });
+    }
+
+    #[test]
+    fn triangles_of_every_size_are_hit_or_refused() {
+        hit_or_refused(|random, place, size| {
+            let [a, b, c] = [(); 3].map(|()| place + random.vector() * size);
+            (Triangle::<f32>::new(a, b, c), [(a + b + c) * (1.0 / 3.0), a, b, c])
+        });
+    }
+
+    #[test]
+    fn barycentric_coordinates_are_weights_whatever_the_ray() {
+        let t = Triangle::<f32>::new(Vec3::ZERO, Vec3::X, Vec3::Y);
+        let at = |x, y| t.barycentric(&ray([x, y, 1.0], [0.0, 0.0, -1.0]));
+        assert_eq!(at(0.25, 0.5), [0.25, 0.25, 0.5]);
+        // Outside: of a place on the outline.
+        assert_eq!(at(0.5, -1.0e-3)[2], 0.0);
+        assert_eq!(at(-1.0, -1.0), [1.0, 0.0, 0.0]);
+        assert_eq!(at(3.0, -1.0), [0.0, 1.0, 0.0]);
+        // Edge-on, and from where products overflow or are nothing.
+        let third = [1.0 / 3.0; 3];
+        assert_eq!(t.barycentric(&ray([-1.0, 0.2, 0.0], [1.0, 0.0, 0.0])), third);
+        assert_eq!(t.barycentric(&ray([1.0e30, 1.0e30, 1.0], [0.0, 0.0, -1.0])), third);
+        let mut random = Random(31);
+        for i in 0..100_000_u32 {
+            let [o, d] = [(); 2].map(|()| {
+                let exponent = if i % 2 == 0 { 3.0 } else { 38.0 };
+                random.vector() * 10.0_f32.powf(random.within(-exponent, exponent))
+            });
+            let Ok(r) = Ray::new(o, d) else { continue };
+            let w = t.barycentric(&r);
+            assert!(w.iter().all(|w| (0.0..=1.0).contains(w)), "{r:?} {w:?}");
+            assert!((w.iter().sum::<f32>() - 1.0).abs() < 1.0e-6, "{r:?} {w:?}");
+        }
     }
 
     #[test]
