@@ -197,12 +197,6 @@ pub(super) fn is_unit<R: Real>(axis: Vec3<R>) -> bool {
     (axis.length() - R::ONE).abs() <= R::ulps(16)
 }
 
-/// Whether a length is great enough to compute with its square.
-pub(super) fn keeps_digits<R: Real>(length: R) -> bool {
-    let part = length * super::part::<R>();
-    part.times(part) > R::Wide::default()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

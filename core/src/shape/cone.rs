@@ -7,7 +7,7 @@
 //! through the tip, where b² and a c agree, are as exact there as any. A ray parallel to the wall
 //! has a = 0 and one root at infinity. The ends are planes as for the cylinder.
 
-use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit, keeps_digits};
+use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit};
 use super::{Length, Shape, ShapeError, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
@@ -153,7 +153,7 @@ impl<R: Real> Shape<R> for Cone<R> {
         } else if self.base_radius < R::ZERO || self.apex_radius < R::ZERO || self.height < R::ZERO
         {
             Err(ShapeError::Negative)
-        } else if !(keeps_digits(self.height) && keeps_digits(radii)) {
+        } else if !(self.height > R::ZERO && R::narrow(radii.times(radii)) > R::ZERO) {
             Err(ShapeError::Degenerate)
         } else if !is_unit::<R>(self.axis) {
             Err(ShapeError::NotUnit)

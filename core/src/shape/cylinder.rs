@@ -6,7 +6,7 @@
 //! closed cylinder is the part of the wall's inside between two planes (T. L. Kay, J. T. Kajiya,
 //! "Ray tracing complex scenes", 1986), not wall plus discs: no ray gets in between at the rims.
 
-use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit, keeps_digits};
+use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit};
 use super::{Length, Shape, ShapeError, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
@@ -98,7 +98,7 @@ impl<R: Real> Shape<R> for Cylinder<R> {
             Err(ShapeError::NotFinite)
         } else if self.radius < R::ZERO || self.height < R::ZERO {
             Err(ShapeError::Negative)
-        } else if !(keeps_digits(self.height) && keeps_digits(self.radius)) {
+        } else if !(self.height > R::ZERO && R::narrow(self.radius.times(self.radius)) > R::ZERO) {
             Err(ShapeError::Degenerate)
         } else if is_unit::<R>(self.axis) {
             Ok(())

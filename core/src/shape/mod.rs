@@ -39,9 +39,9 @@ mod testing;
 pub enum ShapeError {
     /// A coordinate or a radius is infinite or not a number, or so great that products of it are.
     NotFinite,
-    /// It has no surface, or one too small to compute with: a length is zero or products of lengths
-    /// are, corners coincide or lie in a line. In `f32` that is so for radii of spheres and sides of
-    /// triangles below 3e-23, and for sides of polygons, radii and heights below 5e-22.
+    /// It has no surface, or one too small to compute with: a length is zero or the product of two
+    /// is, corners coincide or lie in a line. In `f32` that befalls radii and the sides of triangles
+    /// below 3e-23, and the sides of polygons below 5e-22.
     Degenerate,
     /// A radius or an extent is negative.
     Negative,
@@ -129,9 +129,4 @@ fn move_into<R: Real>(ray: &Ray<R>, bounds: Aabb<R>, t: R) -> Option<R> {
 pub(crate) fn workable<R: Real>(reach: R) -> bool {
     let reach = reach * R::from_i32(16);
     (reach * reach * reach).is_finite()
-}
-
-/// The part of a length whose products must not vanish where those of the whole need digits.
-fn part<R: Real>() -> R {
-    R::ONE / R::from_i32(16)
 }

@@ -8,7 +8,7 @@
 //! (I. Sutherland, R. Sproull, R. Schumacker, ACM Computing Surveys 6(1), 1974, appendix).
 
 use super::triangle::edge;
-use super::{Shape, ShapeError, Shear, part, settle, workable};
+use super::{Shape, ShapeError, Shear, settle, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -102,8 +102,8 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
             && workable(n.max_abs()))
         {
             Err(ShapeError::NotFinite)
-        } else if newell::<R>(self.vertices, part()).is_zero() {
-            // What is inside is decided by products over parts of it.
+        } else if newell::<R>(self.vertices, R::ONE / R::from_i32(16)).is_zero() {
+            // A ray inside forms products over parts of the outline, which must not vanish.
             Err(ShapeError::Degenerate)
         } else if R::narrow(n.dot(n)) > R::ZERO {
             Ok(())
