@@ -4,11 +4,11 @@
 use kibiray::accel::{Accel, Any, BuildError, Hit, Kind, mailbox, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::Real;
-use kibiray::plan::{Structure, Wishes, plan};
+use kibiray::plan::{Plan, Structure, Wishes, plan};
 use kibiray::scene::{Scene, Shapes};
 use kibiray_host_sim::description::load::load;
 use kibiray_host_sim::tables::Tables;
-use kibiray_tests::{Memory, Shot, shots};
+use kibiray_tests::{Memory, Shot, World, shots};
 
 /// Plans, builds and answers in an arena of so many bytes.
 fn answer<R: Real, S: Shapes<R>>(
@@ -139,5 +139,124 @@ fn mailboxes_take_what_they_say() {
             mailbox::AnyMailbox::new(kind, shapes, &mut arena).unwrap();
             assert_eq!(arena.used(), kind.footprint(shapes).kept);
         }
+    }
+}
+
+#[test]
+fn an_arena_at_any_address_says_exactly_what_it_needs() {
+    let mut memory = Memory::new(64);
+    for address in 0..8 {
+        for capacity in 0..=16 {
+            for length in 0..=24 {
+                let mut take = |bytes: usize| {
+                    let block = &mut memory.bytes(64)[address..address + bytes];
+                    let mut arena = Arena::new(block);
+                    assert_eq!(arena.capacity(), bytes);
+                    let taken = arena.keep::<u8>("part", length).map(|part| part.len());
+                    assert!(arena.used() <= bytes && arena.used() + arena.available() == bytes);
+                    taken
+                };
+                let what = format!("{length} bytes in {capacity} from {address}");
+                match take(capacity) {
+                    Ok(taken) => assert_eq!(taken, length, "{what}"),
+                    Err(OutOfArena { needed, available }) => {
+                        assert!(needed > capacity && available == capacity, "{what}: {needed}");
+                        assert_eq!(take(needed), Ok(length), "{what}, then {needed}");
+                        let less = OutOfArena { needed, available: needed - 1 };
+                        assert_eq!(take(needed - 1), Err(less), "{what}: less is enough");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A plan counts from a multiple of 8. Anywhere else up to 7 bytes are lost, and a build in exactly
+/// what the plan asked for either comes to the same answers or says how much is needed there.
+#[test]
+fn a_plan_holds_in_memory_at_any_address() {
+    let tables = Tables::<f32>::new(&load("spd:tetra:4").unwrap()).unwrap();
+    let polygons = tables.polygons();
+    let scene = tables.scene(&polygons).unwrap();
+    let shots = shots(scene.bounds(), tables.view(), 100, 7);
+    let mut memory = Memory::new(1 << 20);
+    let naive = Wishes { structure: Some(Structure::Naive), ..Wishes::default() };
+    let expected = answer(&scene, &naive, &mut [], &shots).unwrap();
+    let build = |plan: Plan, bytes: &mut [u8]| {
+        let mut arena = Arena::new(bytes);
+        let shapes = scene.shapes().bounded();
+        let mut mailbox = mailbox::AnyMailbox::new(plan.mailbox, shapes, &mut arena)?;
+        let accel = Any::build(plan.accel, &scene, &mut arena)?;
+        let hit = |(ray, interval): &Shot<f32>| {
+            accel.nearest(&scene, ray, *interval, &mut mailbox, &mut ())
+        };
+        Ok::<_, BuildError>(shots.iter().map(hit).collect::<Vec<_>>())
+    };
+    let (mut right, mut refused) = (0, 0);
+    for wishes in wishes() {
+        for budget in (0..=4000).step_by(333).chain([100_000]) {
+            let asked = match plan(&scene, budget, &wishes) {
+                Ok(_) => budget,
+                Err(BuildError::Memory(OutOfArena { needed, .. })) => needed,
+                Err(error) => panic!("{wishes:?}: {error}"),
+            };
+            let plan = plan(&scene, asked, &wishes).unwrap();
+            for address in 0..8 {
+                let what = format!("{plan:?} in {asked} bytes from {address}");
+                let mut at = |bytes| build(plan, &mut memory.bytes(address + bytes)[address..]);
+                match at(asked) {
+                    Ok(hits) => {
+                        right += 1;
+                        assert_eq!(hits, expected, "{what}");
+                    }
+                    Err(BuildError::Memory(OutOfArena { needed, available })) => {
+                        refused += 1;
+                        assert!(address > 0, "{what}: not even where it should");
+                        assert!(available == asked && needed <= asked + 7, "{what}: {needed}");
+                        assert_eq!(at(needed), Ok(expected.clone()), "{what}, then {needed}");
+                        assert!(at(needed - 1).is_err(), "{what}: less than {needed} is enough");
+                    }
+                    Err(error) => panic!("{what}: {error}"),
+                }
+            }
+        }
+    }
+    println!("{right} right answers, {refused} errors with the right number of bytes");
+    assert!(right > 0 && refused > 0);
+}
+
+/// In a mesh six triangles meet at most corners, and a cell around a corner lists all six however
+/// small it is: an octree that divided such cells would go on to its greatest depth everywhere.
+#[test]
+fn an_octree_of_a_mesh_stays_in_proportion_to_it() {
+    let height = |x: u32, z: u32| {
+        let (x, z) = (f64::from(x), f64::from(z));
+        [x, (x * 0.7).sin() + (z * 0.9 + x * 0.2).cos(), z]
+    };
+    let mut world = World::default();
+    for x in 0..10 {
+        for z in 0..10 {
+            let [a, b] = [height(x, z), height(x + 1, z)];
+            let [c, d] = [height(x + 1, z + 1), height(x, z + 1)];
+            world.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    let tables = world.tables::<f32>();
+    let scene = tables.scene(&[]);
+    assert_eq!(scene.shapes().count(), 200);
+    let mut memory = Memory::new(1 << 24);
+    for budget in [8 << 10, 64 << 10, 1 << 24] {
+        let plan = plan(&scene, budget, &Wishes::default()).unwrap();
+        let mut arena = Arena::new(memory.bytes(budget));
+        let Any::Octree(octree) = Any::build(plan.accel, &scene, &mut arena).unwrap() else {
+            panic!("{plan:?}")
+        };
+        let (leaves, cells) = (octree.leaves().count(), octree.interior_nodes());
+        let (kept, level) = (arena.used(), octree.max_level());
+        let (peak, stopped) = (arena.high_water(), octree.stopped_by());
+        println!(
+            "{budget}: {kept} bytes ({peak}), {cells} cells, {leaves} leaves, level {level}, {stopped:?}"
+        );
+        assert!(leaves <= 16 * scene.shapes().count(), "{leaves} leaves in {budget} bytes");
     }
 }
