@@ -1,6 +1,6 @@
 //! What the solids around an axis share: their hull, and a ray as the axis sees it.
 
-use super::{Length, settle};
+use super::{Length, ShapeError, settle, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, Real, Vec3, Vector};
 
@@ -25,12 +25,6 @@ impl<R: Real> Hull<R> {
         self.base + self.axis * (self.height * R::HALF)
     }
 
-    /// The way from the axis to a point, across it.
-    pub(super) fn across(&self, p: Vec3<R>) -> Vec3<R> {
-        let p = p - self.base;
-        p - self.axis * R::narrow(p.dot(self.axis))
-    }
-
     /// The box around the discs, rounded outwards.
     pub(super) fn bounds(&self) -> Aabb<R> {
         let Self { base, axis, height, base_radius, apex_radius, .. } = *self;
@@ -47,6 +41,34 @@ impl<R: Real> Hull<R> {
         let all = Aabb::around([base - b, base + b, apex - a, apex + a]);
         let all = all.grown(R::ulps(2) * (height + base_radius.max(apex_radius)));
         Aabb { lo: all.lo.map(R::next_down), hi: all.hi.map(R::next_up) }
+    }
+
+    /// What is wrong with it; `radii` together decide whether there is a surface.
+    pub(super) fn check(&self, radii: R) -> Result<(), ShapeError> {
+        let reach = self.base.max_abs() + self.height.abs() + radii;
+        let negative = |x| x < R::ZERO;
+        if !(self.base.is_finite() && self.axis.is_finite() && workable(reach)) {
+            Err(ShapeError::NotFinite)
+        } else if [self.height, self.base_radius, self.apex_radius].into_iter().any(negative) {
+            Err(ShapeError::Negative)
+        } else if !(self.height > R::ZERO && R::narrow(radii.times(radii)) > R::ZERO) {
+            Err(ShapeError::Degenerate)
+        } else if !is_unit::<R>(self.axis) {
+            Err(ShapeError::NotUnit)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// On which part of the surface a hit lies, and the way there from the axis, across it.
+    pub(super) fn place(&self, found: Option<Passage<R>>, ray: &Ray<R>, t: R) -> (Part, Vec3<R>) {
+        match found.and_then(|(frame, all)| Some((frame, frame.origin_of(all, t)?))) {
+            Some((frame, (step, part))) => (part, frame.moved(step).q),
+            None => {
+                let p = ray.at(t) - self.base;
+                (Part::Wall, p - self.axis * R::narrow(p.dot(self.axis)))
+            }
+        }
     }
 
     /// What [`settle`] makes of a crossing, without the three square roots of the box where the
@@ -103,10 +125,13 @@ pub(super) enum Part {
 }
 
 /// A crossing: the step from [`Frame::start`], and where.
-pub(super) type Crossing<R> = (R, Part);
+type Crossing<R> = (R, Part);
 
 /// Where the ray enters and where it leaves.
 pub(super) type Crossings<R> = [Option<Crossing<R>>; 2];
+
+/// How a ray passes: as the axis sees it, and where it crosses the surface.
+pub(super) type Passage<R> = (Frame<R>, Crossings<R>);
 
 impl<R: Real> Frame<R> {
     pub(super) fn of(ray: &Ray<R>, length: &Length<R>, middle: Vec3<R>, axis: Vec3<R>) -> Self {
@@ -160,8 +185,8 @@ impl<R: Real> Frame<R> {
         [near, far]
     }
 
-    /// The crossing a hit came from: that with this `t`, or the nearer one if [`Hull::settle`] moved it.
-    pub(super) fn origin_of(&self, crossings: Crossings<R>, t: R) -> Option<Crossing<R>> {
+    /// The crossing a hit came from: that with this `t`, or the nearer one if it was moved.
+    fn origin_of(&self, crossings: Crossings<R>, t: R) -> Option<Crossing<R>> {
         let off = |c: &Crossing<R>| (self.start + c.0 - t).abs();
         match crossings {
             [Some(a), Some(b)] => Some(if off(&a) <= off(&b) { a } else { b }),
@@ -193,7 +218,7 @@ pub(super) fn axis_between<R: Real>(base: Vec3<R>, apex: Vec3<R>) -> (Vec3<R>, R
 }
 
 /// Whether an axis has length 1 as far as rounding goes.
-pub(super) fn is_unit<R: Real>(axis: Vec3<R>) -> bool {
+fn is_unit<R: Real>(axis: Vec3<R>) -> bool {
     (axis.length() - R::ONE).abs() <= R::ulps(16)
 }
 

@@ -7,7 +7,7 @@
 //! through the tip, where b² and a c agree, are as exact there as any. A ray parallel to the wall
 //! has a = 0 and one root at infinity. The ends are planes as for the cylinder.
 
-use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit};
+use super::axial::{Frame, Hull, Part, Passage, axis_between};
 use super::{Length, Shape, ShapeError, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
@@ -67,7 +67,7 @@ impl<R: Real> Cone<R> {
         Hull { base, axis, height, base_radius, growth: self.growth(), apex_radius }
     }
 
-    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(Frame<R>, Crossings<R>)> {
+    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
         let half = self.height * R::HALF;
         let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
         let slab = frame.slab(half)?;
@@ -146,22 +146,8 @@ impl<R: Real> Shape<R> for Cone<R> {
     }
 
     fn check(&self) -> Result<(), ShapeError> {
-        let radii = self.base_radius.abs() + self.apex_radius.abs();
-        let reach = self.base.max_abs() + self.height.abs() + radii;
-        if !(self.base.is_finite() && self.axis.is_finite() && workable(reach)) {
-            Err(ShapeError::NotFinite)
-        } else if self.base_radius < R::ZERO || self.apex_radius < R::ZERO || self.height < R::ZERO
-        {
-            Err(ShapeError::Negative)
-        } else if !(self.height > R::ZERO && R::narrow(radii.times(radii)) > R::ZERO) {
-            Err(ShapeError::Degenerate)
-        } else if !is_unit::<R>(self.axis) {
-            Err(ShapeError::NotUnit)
-        } else if workable(self.growth()) {
-            Ok(())
-        } else {
-            Err(ShapeError::NotFinite)
-        }
+        self.hull().check(self.base_radius.abs() + self.apex_radius.abs())?;
+        if workable(self.growth()) { Ok(()) } else { Err(ShapeError::NotFinite) }
     }
 
     fn bounds(&self) -> Aabb<R> {
@@ -174,15 +160,12 @@ impl<R: Real> Shape<R> for Cone<R> {
     }
 
     fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
-        let found = self.crossings(ray, &Length::of(ray));
-        let across = match found.and_then(|(frame, all)| Some((frame, frame.origin_of(all, t)?))) {
-            Some((_, (_, Part::Base))) => return -self.axis,
-            Some((_, (_, Part::Apex))) => return self.axis,
-            Some((frame, (step, Part::Wall))) => frame.moved(step).q,
-            None => self.hull().across(ray.at(t)),
-        };
-        // At the tip no direction across the axis is left; then along it.
-        across.unit().unwrap_or_default() - self.axis * self.growth()
+        match self.hull().place(self.crossings(ray, &Length::of(ray)), ray, t) {
+            (Part::Base, _) => -self.axis,
+            (Part::Apex, _) => self.axis,
+            // At the tip no direction across the axis is left; then along it.
+            (Part::Wall, across) => across.unit().unwrap_or_default() - self.axis * self.growth(),
+        }
     }
 }
 

@@ -6,8 +6,8 @@
 //! closed cylinder is the part of the wall's inside between two planes (T. L. Kay, J. T. Kajiya,
 //! "Ray tracing complex scenes", 1986), not wall plus discs: no ray gets in between at the rims.
 
-use super::axial::{Crossings, Frame, Hull, Part, axis_between, is_unit};
-use super::{Length, Shape, ShapeError, workable};
+use super::axial::{Frame, Hull, Part, Passage, axis_between};
+use super::{Length, Shape, ShapeError};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -58,7 +58,7 @@ impl<R: Real> Cylinder<R> {
         Hull { base, axis, height, base_radius: radius, growth: R::ZERO, apex_radius: radius }
     }
 
-    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(Frame<R>, Crossings<R>)> {
+    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
         let half = self.height * R::HALF;
         let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
         let slab = frame.slab(half)?;
@@ -93,18 +93,7 @@ impl<R: Real> Shape<R> for Cylinder<R> {
     }
 
     fn check(&self) -> Result<(), ShapeError> {
-        let reach = self.base.max_abs() + self.height.abs() + self.radius.abs();
-        if !(self.base.is_finite() && self.axis.is_finite() && workable(reach)) {
-            Err(ShapeError::NotFinite)
-        } else if self.radius < R::ZERO || self.height < R::ZERO {
-            Err(ShapeError::Negative)
-        } else if !(self.height > R::ZERO && R::narrow(self.radius.times(self.radius)) > R::ZERO) {
-            Err(ShapeError::Degenerate)
-        } else if is_unit::<R>(self.axis) {
-            Ok(())
-        } else {
-            Err(ShapeError::NotUnit)
-        }
+        self.hull().check(self.radius.abs())
     }
 
     fn bounds(&self) -> Aabb<R> {
@@ -117,12 +106,10 @@ impl<R: Real> Shape<R> for Cylinder<R> {
     }
 
     fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
-        let found = self.crossings(ray, &Length::of(ray));
-        match found.and_then(|(frame, all)| Some((frame, frame.origin_of(all, t)?))) {
-            Some((_, (_, Part::Base))) => -self.axis,
-            Some((_, (_, Part::Apex))) => self.axis,
-            Some((frame, (step, Part::Wall))) => frame.moved(step).q,
-            None => self.hull().across(ray.at(t)),
+        match self.hull().place(self.crossings(ray, &Length::of(ray)), ray, t) {
+            (Part::Base, _) => -self.axis,
+            (Part::Apex, _) => self.axis,
+            (Part::Wall, across) => across,
         }
     }
 }
