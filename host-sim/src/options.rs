@@ -57,6 +57,8 @@ pub enum Command {
     },
     /// List the built-in scenes
     Scenes,
+    /// Show a page in the browser that renders by itself, as WebAssembly
+    Serve(Serve),
 }
 
 const TRACE_HELP: &str = "\
@@ -124,6 +126,18 @@ pub struct Trace {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub common: Common,
+}
+
+/// `serve`.
+#[derive(Clone, Debug, Args)]
+pub struct Serve {
+    /// Port on this machine, which nobody else can reach; 0: any that is free
+    #[arg(long, value_name = "N", default_value_t = 8080)]
+    pub port: u16,
+    /// The module that the page runs
+    #[arg(long, value_name = "FILE")]
+    #[arg(default_value = "target/wasm32-unknown-unknown/release/kibiray_page.wasm")]
+    pub wasm: PathBuf,
 }
 
 /// What render, stats and trace share.

@@ -2,6 +2,7 @@
 
 mod render;
 mod scenes;
+mod serve;
 mod stage;
 mod stats;
 mod trace;
@@ -37,6 +38,7 @@ pub fn main() -> ExitCode {
         Some(Command::Trace(options)) => trace::run(&options),
         Some(Command::Scene { name }) => scenes::print(&name),
         Some(Command::Scenes) => scenes::list(),
+        Some(Command::Serve(options)) => serve::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

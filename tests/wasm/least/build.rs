@@ -1,0 +1,10 @@
+//! One page of 64 KiB that cannot grow, the stack in its first 16 KiB: what overflows it traps.
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    for argument in
+        ["-zstack-size=16384", "--stack-first", "--initial-memory=65536", "--max-memory=65536"]
+    {
+        println!("cargo::rustc-link-arg-cdylib={argument}");
+    }
+}
