@@ -42,13 +42,13 @@ fn angles<R: Real>() {
         up: v::<R>(0.0, 1.0, 0.0),
         angle,
     };
-    let nan = R::INFINITY - R::INFINITY;
+    let nan = R::from_f64(f64::NAN);
     let refused =
         [0.0, -0.0, -1.0e-30, -0.5, -pi, -4.0, -7.0, pi, 3.2, 4.0, 6.0, 6.5, 7.0, 9.5, 1.0e9];
     for angle in refused.map(R::from_f64).into_iter().chain([nan, R::INFINITY, -R::INFINITY]) {
         assert_eq!(Camera::new(&view(angle), R::ONE), Err(ViewError), "{angle:?}");
     }
-    for angle in [1.0e-3, 0.5, 1.0, 1.57, 2.0, 3.0, 3.14] {
+    for angle in [1.0e-3, 0.5, 1.0, 1.57, 2.0, 3.0, 3.125] {
         let camera = Camera::new(&view(R::from_f64(angle)), R::ONE).unwrap();
         // Along the upper edge it looks half the angle upwards.
         let (middle, edge) = (camera.ray(R::ZERO, R::ZERO), camera.ray(R::ZERO, R::ONE));

@@ -188,7 +188,7 @@ fn accurate(middle: [f64; 3], size: f64, (from, to): (f64, f64)) -> (usize, f64)
     let u = 2.0_f64.powi(-24);
     let scale = f64::from(small.bounds().max_abs());
     let (mut clear, mut worst) = (0, 0.0_f64);
-    let shots: Vec<Shot<f32>> = far_shots(&mut rng, (middle, size), (from, to), 20_000, |rng| {
+    let shots: Vec<Shot<f32>> = far_shots(&mut rng, (middle, size), (from, to), 10_000, |rng| {
         10.0_f64.powf(rng.f64() * 8.0 - 4.0)
     });
     for (ray, _) in shots {
@@ -264,7 +264,7 @@ fn t_in_f32_is_as_good_as_its_digits() {
 /// not numbers; nothing on a bound either.
 fn nothing_between<R: Real>(number: &str) {
     let mut memory = Memory::new(UNLIMITED);
-    let nan = R::INFINITY - R::INFINITY;
+    let nan = R::from_f64(f64::NAN);
     let mut rng = fastrand::Rng::with_seed(24);
     for (middle, size) in [([0.0; 3], 1.0), (FAR, 1.0e6), ([0.0; 3], 1.0e-6)] {
         let tables = world(&mut rng, middle, size).tables::<R>();

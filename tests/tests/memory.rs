@@ -62,13 +62,13 @@ fn any_arena_gives_the_right_answer_or_the_right_number_of_bytes() {
                 match answer(&scene, &wishes, memory.bytes(bytes), &shots) {
                     Ok(hits) => {
                         right += 1;
-                        assert_eq!(hits, expected, "{what}");
+                        assert!(hits == expected, "{what}");
                     }
                     Err(BuildError::Memory(OutOfArena { needed, available })) => {
                         refused += 1;
                         assert!(needed > bytes && available == bytes, "{what}: {needed}");
                         let hits = answer(&scene, &wishes, memory.bytes(needed), &shots);
-                        assert_eq!(hits.unwrap(), expected, "{what}, then {needed}");
+                        assert!(hits.unwrap() == expected, "{what}, then {needed}");
                         let less = answer(&scene, &wishes, memory.bytes(needed - 1), &shots);
                         assert!(less.is_err(), "{what}: less than {needed} is enough");
                     }
@@ -207,13 +207,13 @@ fn a_plan_holds_in_memory_at_any_address() {
                 match at(asked) {
                     Ok(hits) => {
                         right += 1;
-                        assert_eq!(hits, expected, "{what}");
+                        assert!(hits == expected, "{what}");
                     }
                     Err(BuildError::Memory(OutOfArena { needed, available })) => {
                         refused += 1;
                         assert!(address > 0, "{what}: not even where it should");
                         assert!(available == asked && needed <= asked + 7, "{what}: {needed}");
-                        assert_eq!(at(needed), Ok(expected.clone()), "{what}, then {needed}");
+                        assert!(at(needed).unwrap() == expected, "{what}, then {needed}");
                         assert!(at(needed - 1).is_err(), "{what}: less than {needed} is enough");
                     }
                     Err(error) => panic!("{what}: {error}"),

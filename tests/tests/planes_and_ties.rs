@@ -85,11 +85,11 @@ fn check<R: Real>(what: &str, world: &World, extra: &[Shot<R>], memory: &mut Mem
     } else {
         Aabb::around([Vec3::<R>::splat(-R::ONE), Vec3::<R>::splat(R::ONE)])
     };
-    let plain = plain_shots(bounds, 2000, &mut rng);
+    let plain = plain_shots(bounds, 1000, &mut rng);
     for (shot, (found, _)) in plain.iter().zip(naive_answers(&scene, &plain)) {
         assert_eq!(found, first(&scene, shot), "{what}: against a loop over the set, {shot:?}");
     }
-    let mut all = shots(bounds, &view_of(bounds), 2000, 12);
+    let mut all = shots(bounds, &view_of(bounds), 1000, 12);
     all.extend(plain);
     all.extend_from_slice(extra);
     compare(what, &scene, &all, memory)
@@ -235,7 +235,7 @@ fn in_walls<R: Real>(number: &str) {
         let bounds = tables.scene(&[]).bounds();
         let cube = [-512.0, 512.0].map(|x| Vec3::<R>::splat(R::from_f64(x)));
         assert_eq!(bounds, Aabb { lo: cube[0], hi: cube[1] }, "the walls are elsewhere");
-        let extra = wall_shots::<R>(3000, &mut rng);
+        let extra = wall_shots::<R>(1500, &mut rng);
         let what = format!("{number} walls {seed}");
         let compared = check::<R>(&what, &world, &extra, &mut memory);
         println!("{what}: {compared:?}");
