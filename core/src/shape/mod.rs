@@ -7,7 +7,7 @@
 //! * The point at `t` lies in [`Shape::bounds`], or outside it by no more than [`Ray::slack`]. Space
 //!   is divided by padded boxes, so a structure that follows the ray from cell to cell cannot lose
 //!   what testing every shape would find. Where a kernel cannot promise this by itself (a triangle
-//!   seen edge-on has no well-defined `t`), it ends in [`settle`].
+//!   seen edge-on has no well-defined `t`), it ends in `settle`.
 //! * A shape that passed [`Shape::check`] is never hit at a `t` that is not a number.
 
 mod axial;
