@@ -154,7 +154,7 @@ function start(engine) {
     } else {
       say("This cannot be built", "The structure has no room for so many entries; choose another one.");
     }
-    state("refused", $("message-text").textContent);
+    state("refused", "Nothing is rendered.");
   }
 
   // Not even the least of what was asked for fits.

@@ -18,10 +18,10 @@ const CORNERS: [V; 4] = [
 const FACES: [[usize; 3]; 4] = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]];
 
 pub(super) fn build(store: &mut Store) {
-    store.background(0.86, 0.89, 0.92);
+    store.background(0.06, 0.07, 0.09);
     store.light(V::new(-3.0, 6.0, 5.0), V::new(0.8, 0.77, 0.7));
-    store.light(V::new(6.0, 3.0, 3.0), V::new(0.3, 0.32, 0.36));
-    store.surface(V::new(0.13, 0.58, 0.56), 0.92, 0.08, 30.0);
+    store.light(V::new(5.0, 3.0, 6.0), V::new(0.5, 0.52, 0.56));
+    store.surface(V::new(0.16, 0.68, 0.64), 0.95, 0.08, 30.0);
     for piece in 0..1_u32 << (2 * LEVELS) {
         let mut size = 1.0;
         let mut middle = V::ZERO;
