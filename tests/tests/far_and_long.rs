@@ -53,7 +53,7 @@ fn far_shots<R: Real>(
             let interval = if rng.u8(0..4) == 0 {
                 let t = away / l;
                 // Not so narrow that no number of the type lies between the bounds.
-                let half = size / l * rng.f64() + t * 4.0 * R::EPSILON.to_f64();
+                let half = size / l * rng.f64();
                 Interval::new(R::from_f64(t - half), R::from_f64(t + half))
             } else {
                 Interval::RAY
@@ -294,4 +294,31 @@ fn nothing_between<R: Real>(number: &str) {
 fn empty_intervals_contain_no_hit() {
     nothing_between::<f32>("f32");
     nothing_between::<f64>("f64");
+}
+
+/// Between neighbouring numbers there is none, wherever the ray starts.
+fn between_neighbours<R: Real>(number: &str) {
+    let mut rng = fastrand::Rng::with_seed(25);
+    for (middle, size) in [([0.0; 3], 1.0), (FAR, 1.0e6), ([0.0; 3], 1.0e-6)] {
+        let tables = world(&mut rng, middle, size).tables::<R>();
+        let polygons = tables.polygons();
+        let scene = tables.scene(&polygons);
+        let shots: Vec<Shot<R>> =
+            far_shots(&mut rng, (middle, size), (-1.0, 9.0), 1000, any_length);
+        let mut empty = Vec::new();
+        for ((ray, _), (hit, _)) in shots.iter().zip(naive_answers(&scene, &shots)) {
+            let t = hit.map_or(R::ONE, |(t, _)| R::from_f64(f64::from_bits(t)));
+            empty.push((*ray, Interval::new(t, t.next_up())));
+            empty.push((*ray, Interval::new(t.next_down(), t)));
+        }
+        for (shot, answer) in empty.iter().zip(naive_answers(&scene, &empty)) {
+            assert_eq!(answer, (None, false), "{number} size {size:e}: {shot:?}");
+        }
+    }
+}
+
+#[test]
+fn between_neighbouring_numbers_there_is_no_hit() {
+    between_neighbours::<f32>("f32");
+    between_neighbours::<f64>("f64");
 }

@@ -49,6 +49,11 @@ impl<R: Real> Framing<R> {
         far: R,
     ) -> (Ray<R>, Interval<R>, Self) {
         let mut framing = Self { asked, scale: R::ONE, shift: R::ZERO, near: true };
+        // Where no number lies between the bounds, moving must not make room for some.
+        if !(asked.min.next_up() < asked.max) {
+            framing.near = false;
+            return (ray, Interval::new(R::ZERO, R::ZERO), framing);
+        }
         let mut interval = asked;
         let length = ray.direction().max_abs();
         let long = R::from_i32(LONG);
