@@ -1,4 +1,4 @@
-//! A headless Chromium, driven by the WebDriver protocol.
+//! A headless Chromium, driven by the protocol `WebDriver`.
 
 use crate::server::Process;
 use anyhow::{Context, Result, bail, ensure};
@@ -111,7 +111,7 @@ impl Browser {
         Ok(())
     }
 
-    /// Presses a key: a character, or one of WebDriver's code points.
+    /// Presses a key: a character, or one of `WebDriver`'s code points.
     pub(crate) fn press(&self, key: char) -> Result<()> {
         let strokes = json!([{"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]);
         let keys = json!({"type": "key", "id": "keys", "actions": strokes});

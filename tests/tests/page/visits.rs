@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// Pixels of the page's picture.
 const SIZE: (u16, u16) = (640, 480);
 
-/// WebDriver's names of keys.
+/// `WebDriver`'s names of keys.
 const LEFT: char = '\u{e012}';
 const UP: char = '\u{e013}';
 const HOME: char = '\u{e011}';
