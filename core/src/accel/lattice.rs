@@ -51,8 +51,9 @@ impl<R: Real> Lattice<R> {
     pub(crate) fn cell_of(&self, p: Vec3<R>) -> [i32; 3] {
         let [nx, ny, nz] = self.count;
         let c = (p - self.bounds.lo).scale(self.inverse);
-        // Cutting off equals rounding down for all that is not clamped to 0 anyway.
-        let cell = |c: R, n: i32| c.to_i32().clamp(0, n - 1);
+        // Cutting off equals rounding down for all that is not raised to 0 anyway. (`clamp` would
+        // bring a panic for a lower end above the upper one.)
+        let cell = |c: R, n: i32| c.to_i32().min(n - 1).max(0);
         [cell(c.x(), nx), cell(c.y(), ny), cell(c.z(), nz)]
     }
 

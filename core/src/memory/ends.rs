@@ -78,8 +78,11 @@ impl<'s, F: Pod, B: Pod> Ends<'s, F, B> {
         let back = self.back * size_of::<B>();
         let from = self.bytes.len() - back;
         let to = part_bytes::<F>(self.front) + part_bytes::<u8>(gap);
-        if to <= from {
-            self.bytes.copy_within(from.., to);
+        if to <= from
+            && let Some(rest) = self.bytes.get_mut(to..)
+            && let Some(from) = rest.len().checked_sub(back)
+        {
+            rest.copy_within(from.., 0);
         }
     }
 }

@@ -113,7 +113,7 @@ mod tests {
             (-0.1, 0.1, black),
             (-0.1, -0.1, Vec3::ONE),
             (0.6, 0.1, black),
-            (0.6, -0.6, Vec3::ONE),
+            (0.6, -0.1, Vec3::ONE),
         ] {
             for y in [-1e-7, 0.0, 1e-7] {
                 assert_eq!(floor.color_at(vec3(x, y, z), Vec3::Y), expected, "{x} {z}");

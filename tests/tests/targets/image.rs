@@ -58,4 +58,11 @@ impl Image {
         ensure!(found.is_empty(), "formatting: {found:?}");
         Ok(())
     }
+
+    /// Nothing in the program can panic: what could would keep the handler linked.
+    pub(crate) fn panics_nowhere(&self) -> Result<()> {
+        let found = self.with(&["9panicking", "core::panicking", "panicked", "rust_begin_unwind"]);
+        ensure!(found.is_empty(), "panics: {found:?}");
+        Ok(())
+    }
 }

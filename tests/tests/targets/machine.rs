@@ -73,6 +73,7 @@ impl Machine {
         let image = Image::read(&elf)?;
         image.allocates_nothing()?;
         image.formats_nothing()?;
+        image.panics_nowhere()?;
 
         let (line, report) = run::report::<Report>(&mut self.emulate(tools, &elf))?;
         let line = format!("{},\"flash_bytes\":{}}}\n", line.trim_end_matches('}'), image.flash());

@@ -362,9 +362,13 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
                 let (_, lists) = self.ends.both();
                 let from = lists.len().saturating_sub(word as usize);
                 end += entries;
-                let to = lists.len().saturating_sub(end);
-                if from != to && from + entries <= lists.len() {
-                    lists.copy_within(from..from + entries, to);
+                // Lists only ever move towards the end.
+                let behind = end.saturating_sub(entries);
+                let until = lists.len().saturating_sub(behind);
+                if let Some(span) = lists.get_mut(from..until)
+                    && let Some(to) = span.len().checked_sub(entries)
+                {
+                    span.copy_within(..entries, to);
                 }
                 self.set(place, end as Word);
             }

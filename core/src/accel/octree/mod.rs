@@ -162,7 +162,7 @@ impl<R: Real, I: Id> Accel<R> for Octree<'_, R, I> {
 
             // Exactly one cell beyond that wall, and within the leaf in the other directions.
             let [px, py, pz] = self.lattice.cell_of(ray.at(t));
-            let within = |p: i32, base: i32| p.clamp(base, base + size - 1);
+            let within = |p: i32, base: i32| p.max(base).min(base + size - 1);
             let beyond = |sign: i32, base: i32| if sign > 0 { base + size } else { base - 1 };
             cell = [within(px, bx), within(py, by), within(pz, bz)];
             let [cx, cy, cz] = &mut cell;
