@@ -4,7 +4,7 @@
 //! and names are found in a hash table; there are no pointers. To go on from a cell, the ray's exit
 //! is computed and the cell behind it is located again from the root.
 //!
-//! Only divided cells stand in the table: the eight children of a cell lie together as a [`Family`]
+//! Only divided cells stand in the table: the eight children of a cell lie together as a `Family`
 //! under their parent's name. The ray's place is held in whole numbers, counted in cells of the
 //! deepest level: leaving through a face sets one of them to exactly the neighbour's side and keeps
 //! the others within the cell just left. No point is nudged, so no cell is skipped or met twice,
