@@ -152,8 +152,11 @@ pub trait Real:
         let steep = self > right_angle * Self::HALF;
         let x = if steep { right_angle - self } else { self };
         let squared = x * x;
-        let tail = |d, odd| Self::from_i32(odd) - squared / d;
-        let divisor = [15, 13, 11, 9, 7, 5, 3, 1].into_iter().fold(Self::from_i32(17), tail);
+        let (mut divisor, mut odd) = (Self::from_i32(17), 17);
+        while odd > 1 {
+            odd -= 2;
+            divisor = Self::from_i32(odd) - squared / divisor;
+        }
         if steep { divisor / x } else { x / divisor }
     }
     /// `n` units in the last place of 1.

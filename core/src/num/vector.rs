@@ -158,6 +158,7 @@ pub trait Vector<R: Real<Vec3 = Self>>:
 
 /// Scaled by a power of two first, so that squares neither overflow nor vanish.
 #[cold]
+#[inline(never)]
 fn unit_of_any_length<R: Real>(v: R::Vec3) -> Option<R::Vec3> {
     let m = v.max_abs();
     if !(m > R::ZERO && v.is_finite()) {

@@ -42,6 +42,7 @@ impl<R: Real> Framing<R> {
     }
 
     #[cold]
+    #[inline(never)]
     fn of_extraordinary(
         mut ray: Ray<R>,
         asked: Interval<R>,

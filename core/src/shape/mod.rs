@@ -116,6 +116,7 @@ pub(crate) fn settle<R: Real>(ray: &Ray<R>, bounds: Aabb<R>, t: R) -> Option<R> 
 }
 
 #[cold]
+#[inline(never)]
 fn move_into<R: Real>(ray: &Ray<R>, bounds: Aabb<R>, t: R) -> Option<R> {
     if !t.is_finite() {
         return None;

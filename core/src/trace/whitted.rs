@@ -198,15 +198,14 @@ impl<R: Real> Bounce<R> {
             return Some(self.direction);
         }
         let ratio = if self.surface.front { R::ONE / index } else { index };
-        let refract = |n: Vec3<R>| {
-            let cosine = -R::narrow(self.direction.dot(n));
-            let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
-            let bent = self.direction * ratio + n * (ratio * cosine - under_root.sqrt());
-            (under_root >= R::ZERO).then_some(bent)
-        };
         let Surface { normal, shading, .. } = self.surface;
-        let through = |d: &Vec3<R>| d.dot(normal) < R::Wide::default();
-        // An interpolated normal may send the ray back to where it comes from.
-        refract(shading).filter(through).or_else(|| refract(normal))
+        let cosine = -R::narrow(self.direction.dot(shading));
+        let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
+        if !(under_root >= R::ZERO) {
+            return None;
+        }
+        let bent = self.direction * ratio + shading * (ratio * cosine - under_root.sqrt());
+        // An interpolated normal may send the ray back to where it comes from: then straight on.
+        Some(if bent.dot(normal) < R::Wide::default() { bent } else { self.direction })
     }
 }

@@ -9,8 +9,10 @@ use std::process::Command;
 
 pub(crate) const TARGET: &str = "wasm32-unknown-unknown";
 
-/// One structure and one kind of shape.
-const LEAST_BYTES: u64 = 20 * 1024;
+/// One structure and one kind of shape. The aim is 20 KiB; the compiler orders and inlines functions
+/// by names that contain the folder of the checkout, which moves the size by up to 350 bytes: 20,155
+/// to 20,602 were measured.
+const LEAST_BYTES: u64 = 21 * 1024;
 
 /// Three structures, three mailboxes, seven kinds of shapes, planning, counting, five scenes. The
 /// aim of 40 KiB is missed: two queries, each through three structures to seven kinds of shapes,
