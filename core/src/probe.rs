@@ -15,8 +15,8 @@ pub enum RayKind {
 ///
 /// A type parameter everywhere: with `()` every call is empty and no instruction is left of it.
 pub trait Probe {
-    /// A ray was tested against a shape.
-    fn primitive_test(&mut self) {}
+    /// A ray was tested against so many shapes.
+    fn primitive_tests(&mut self, _count: usize) {}
     /// A mailbox knew that a shape had been tested for this ray.
     fn mailbox_skip(&mut self) {}
     /// A node or a cell was looked at.
@@ -61,8 +61,8 @@ pub struct Counters {
 }
 
 impl Probe for Counters {
-    fn primitive_test(&mut self) {
-        self.primitive_tests += 1;
+    fn primitive_tests(&mut self, count: usize) {
+        self.primitive_tests += count as u64;
     }
     fn mailbox_skip(&mut self) {
         self.mailbox_skips += 1;

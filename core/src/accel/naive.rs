@@ -21,6 +21,6 @@ impl Naive {
 
 impl<R: Real> Accel<R> for Naive {
     fn walk<V: Visitor<R>>(&self, _ray: &Ray<R>, visitor: &mut V) {
-        visitor.visit(0..self.shapes);
+        visitor.visit_range(0..self.shapes);
     }
 }

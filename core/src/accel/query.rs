@@ -5,6 +5,7 @@ use crate::geom::{Interval, Ray};
 use crate::num::Real;
 use crate::probe::Probe;
 use crate::scene::{Framing, Scene, Shapes};
+use core::ops::Range;
 
 /// A place where a ray meets a shape. What shading needs besides is computed when it is asked for:
 /// [`Scene::surface`].
@@ -14,8 +15,10 @@ pub struct Hit<R> {
     pub t: R,
     /// Which shape.
     pub id: usize,
-    /// Parameter along the ray as it was traced; see [`Framing`].
+    /// Parameter along the ray as it was traced.
     pub(crate) local: R,
+    /// Whether it was traced as it was asked for; otherwise see [`Framing`].
+    pub(crate) as_asked: bool,
 }
 
 /// Takes the shapes that a structure finds on the way of a ray.
@@ -31,6 +34,9 @@ pub trait Visitor<R: Real> {
 
     /// Shapes that the ray may meet.
     fn visit(&mut self, ids: impl Iterator<Item = usize>);
+
+    /// Shapes that no other list names.
+    fn visit_range(&mut self, ids: Range<usize>);
 
     /// The counters.
     fn probe(&mut self) -> &mut Self::Probe;
@@ -53,9 +59,16 @@ pub trait Accel<R: Real> {
         mailbox: &mut impl Mailbox,
         probe: &mut impl Probe,
     ) -> Option<Hit<R>> {
-        let goal = Nearest { hit: None };
-        let (goal, framing) = search(self, scene, ray, interval, mailbox, probe, goal);
-        goal.hit.map(|hit| Hit { t: framing.restore(hit.local), ..hit })
+        let as_asked = Framing::is_needless(scene, ray);
+        let goal = Nearest { id: None };
+        let (goal, local) = search(self, scene, ray, interval, mailbox, probe, goal);
+        let id = goal.id?;
+        let t = if as_asked {
+            local
+        } else {
+            Framing::of(scene, ray, interval).restore(interval, local)
+        };
+        Some(Hit { t, id, local, as_asked })
     }
 
     /// Whether anything is hit within an open interval. Stops at the first hit it finds.
@@ -72,7 +85,7 @@ pub trait Accel<R: Real> {
     }
 }
 
-/// Runs a query and gives back its goal, reached or not.
+/// Runs a query and gives back its goal, reached or not, and the last limit.
 fn search<R: Real, S: Shapes<R>, G: Goal<R>>(
     accel: &(impl Accel<R> + ?Sized),
     scene: &Scene<'_, R, S>,
@@ -81,8 +94,13 @@ fn search<R: Real, S: Shapes<R>, G: Goal<R>>(
     mailbox: &mut impl Mailbox,
     probe: &mut impl Probe,
     goal: G,
-) -> (G, Framing<R>) {
-    let (ray, interval, framing) = Framing::of(scene, ray, interval);
+) -> (G, R) {
+    let (ray, interval, near) = if Framing::is_needless(scene, ray) {
+        (ray.with_slack(scene.slack()), interval, true)
+    } else {
+        let Framing { ray, interval, near, .. } = Framing::of(scene, ray, interval);
+        (ray, interval, near)
+    };
     let shapes = scene.shapes();
     let mut search = Search {
         line: Line { shapes, ray: &ray, per_ray: shapes.per_ray(&ray) },
@@ -93,23 +111,29 @@ fn search<R: Real, S: Shapes<R>, G: Goal<R>>(
         goal,
     };
     // Without bounds they are in no structure. Their ids come last, so a tie is not theirs.
-    for id in shapes.bounded()..shapes.count() {
-        if search.is_over() {
-            break;
-        }
-        search.test(id);
+    if !search.is_over() {
+        search.visit_range(shapes.bounded()..shapes.count());
     }
-    if framing.near && !search.is_over() {
+    if near && !search.is_over() {
         search.mailbox.next_ray();
         accel.walk(&ray, &mut search);
     }
-    (search.goal, framing)
+    (search.goal, search.limit)
 }
 
 /// What a query looks for.
 trait Goal<R: Real> {
     /// Tests one shape between `min` and `limit`; gives the new limit.
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R;
+
+    /// Tests some that follow each other; gives the new limit and the number of tests.
+    fn test_range<S: Shapes<R>>(
+        &mut self,
+        line: &Line<'_, R, S>,
+        ids: Range<usize>,
+        min: R,
+        limit: R,
+    ) -> (R, usize);
 }
 
 /// A set of shapes and a ray prepared for it.
@@ -119,22 +143,39 @@ struct Line<'q, R: Real, S: Shapes<R>> {
     per_ray: S::PerRay,
 }
 
-struct Nearest<R> {
-    hit: Option<Hit<R>>,
+struct Nearest {
+    id: Option<usize>,
 }
 
-impl<R: Real> Goal<R> for Nearest<R> {
+impl Nearest {
+    /// Takes a hit at `t <= limit`, unless it is a tie with an earlier shape.
+    fn take<R: Real>(&mut self, id: usize, t: R, limit: R) -> R {
+        if !(t == limit && self.id.is_some_and(|earlier| earlier < id)) {
+            self.id = Some(id);
+        }
+        t
+    }
+}
+
+impl<R: Real> Goal<R> for Nearest {
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
-        let Some(t) = line.shapes.hit(id, line.ray, &line.per_ray, min, limit) else {
-            return limit;
-        };
-        match self.hit {
-            // A tie with an earlier shape.
-            Some(hit) if t == limit && id > hit.id => limit,
-            _ => {
-                self.hit = Some(Hit { t, id, local: t });
-                t
-            }
+        match line.shapes.hit(id, line.ray, &line.per_ray, min, limit) {
+            Some(t) => self.take(id, t, limit),
+            None => limit,
+        }
+    }
+
+    fn test_range<S: Shapes<R>>(
+        &mut self,
+        line: &Line<'_, R, S>,
+        ids: Range<usize>,
+        min: R,
+        limit: R,
+    ) -> (R, usize) {
+        let tests = ids.len();
+        match line.shapes.nearest_of(ids, line.ray, &line.per_ray, min, limit) {
+            Some((id, t)) => (self.take(id, t, limit), tests),
+            None => (limit, tests),
         }
     }
 }
@@ -143,11 +184,34 @@ struct Blocked {
     found: bool,
 }
 
+impl Blocked {
+    /// Once something is found, nothing is left to look for.
+    fn limit<R: Real>(&self, limit: R) -> R {
+        if self.found { -R::INFINITY } else { limit }
+    }
+}
+
 impl<R: Real> Goal<R> for Blocked {
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
         self.found |= line.shapes.occludes(id, line.ray, &line.per_ray, min, limit);
-        // Nothing is left to look for.
-        if self.found { -R::INFINITY } else { limit }
+        self.limit(limit)
+    }
+
+    fn test_range<S: Shapes<R>>(
+        &mut self,
+        line: &Line<'_, R, S>,
+        ids: Range<usize>,
+        min: R,
+        limit: R,
+    ) -> (R, usize) {
+        let (first, tests) = (ids.start, ids.len());
+        match line.shapes.any_of(ids, line.ray, &line.per_ray, min, limit) {
+            Some(id) => {
+                self.found = true;
+                (self.limit(limit), id - first + 1)
+            }
+            None => (limit, tests),
+        }
     }
 }
 
@@ -166,11 +230,6 @@ impl<R: Real, S: Shapes<R>, M, P: Probe, G: Goal<R>> Search<'_, R, S, M, P, G> {
     /// Whether nothing is left to look for; also for intervals that contain nothing.
     fn is_over(&self) -> bool {
         !(self.limit > self.min)
-    }
-
-    fn test(&mut self, id: usize) {
-        self.probe.primitive_test();
-        self.limit = self.goal.test(&self.line, id, self.min, self.limit);
     }
 }
 
@@ -193,11 +252,18 @@ impl<R: Real, S: Shapes<R>, M: Mailbox, P: Probe, G: Goal<R>> Visitor<R>
                 self.probe.mailbox_skip();
                 continue;
             }
-            self.test(id);
+            self.probe.primitive_tests(1);
+            self.limit = self.goal.test(&self.line, id, self.min, self.limit);
             if self.is_over() {
                 return;
             }
         }
+    }
+
+    fn visit_range(&mut self, ids: Range<usize>) {
+        let (limit, tests) = self.goal.test_range(&self.line, ids, self.min, self.limit);
+        self.probe.primitive_tests(tests);
+        self.limit = limit;
     }
 
     fn probe(&mut self) -> &mut P {

@@ -10,8 +10,16 @@ use crate::num::{Axis, Real, Vec3, Vector};
 pub struct Ray<R: Real> {
     origin: Vec3<R>,
     direction: Vec3<R>,
+    /// The squared length of the direction.
+    squared: R,
+    /// At least the greatest coordinate of the origin; beyond everything for directions whose
+    /// squares are nothing to compute with.
+    reach: R,
     slack: R,
 }
+
+/// Directions this many times longer or shorter than 1 have to be scaled first.
+const LONG: i32 = 16;
 
 /// A component is infinite or not a number, or the direction is zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,19 +39,28 @@ impl<R: Real> Ray<R> {
     /// # Errors
     /// [`NotARay`] when a component is infinite or not a number or the direction is zero.
     pub fn new(origin: Vec3<R>, direction: Vec3<R>) -> Result<Self, NotARay> {
-        if origin.is_finite() && direction.is_finite() && !direction.is_zero() {
-            let slack = R::ulps(SLACK) * origin.max_abs();
-            Ok(Self { origin, direction, slack })
-        } else {
-            Err(NotARay)
-        }
+        let reach = origin.max_abs();
+        let ray = if origin.is_finite() { Self::from(origin, direction, reach) } else { None };
+        Ok(Self { slack: R::ulps(SLACK) * reach, ..ray.ok_or(NotARay)? })
     }
 
-    /// A ray on its way through a scene, which will give it its slack. The direction has length 1,
-    /// unless it is not a number.
-    pub(crate) fn spawned(origin: Vec3<R>, direction: Vec3<R>) -> Option<Self> {
-        let finite = origin.is_finite() && direction.is_finite();
-        finite.then_some(Self { origin, direction, slack: R::ZERO })
+    /// A ray from a point whose coordinates are at most `reach`; if one is infinite or not a number,
+    /// then `reach` is, too. The scene that it is shot into gives it its slack.
+    #[inline]
+    pub(crate) fn from(origin: Vec3<R>, direction: Vec3<R>, reach: R) -> Option<Self> {
+        let squared = R::narrow(direction.dot(direction));
+        let long = R::from_i32(LONG * LONG);
+        let ray = Self { origin, direction, squared, reach, slack: R::ZERO };
+        let ordinary = reach < R::INFINITY && squared <= long && squared * long >= R::ONE;
+        if ordinary { Some(ray) } else { ray.extraordinary() }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn extraordinary(self) -> Option<Self> {
+        let finite = self.origin.is_finite() && self.direction.is_finite();
+        let ray = Self { reach: R::INFINITY, ..self };
+        (finite && !self.direction.is_zero()).then_some(ray)
     }
 
     /// Where it starts.
@@ -67,14 +84,20 @@ impl<R: Real> Ray<R> {
         self.origin + self.direction * t
     }
 
+    /// The squared length of the direction.
+    pub(crate) fn squared(&self) -> R {
+        self.squared
+    }
+
+    /// How far from the middle of all coordinates it starts, at most; [`Real::INFINITY`] when the
+    /// direction has to be scaled before anything is computed with it.
+    pub(crate) fn reach(&self) -> R {
+        self.reach
+    }
+
     /// The same ray with the slack of the scene it is shot into.
     pub(crate) fn with_slack(self, slack: R) -> Self {
         Self { slack, ..self }
-    }
-
-    /// The same line from another of its points, or with its direction scaled.
-    pub(crate) fn rebased(self, origin: Vec3<R>, direction: Vec3<R>) -> Self {
-        Self { origin, direction, ..self }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Real, Vector, sqrt};
 
 macro_rules! float {
-    ($f:ident, $vec3:ty, $bits:ident, $mantissa:expr, $sqrt:path, $pow:path) => {
+    ($f:ident, $vec3:ty, $bits:ident, $mantissa:expr, $sqrt:path) => {
         impl Real for $f {
             type Wide = Self;
             type Vec3 = $vec3;
@@ -33,9 +33,6 @@ macro_rules! float {
             }
             fn sqrt(self) -> Self {
                 $sqrt(self)
-            }
-            fn powf(self, exponent: Self) -> Self {
-                $pow(self, exponent)
             }
             fn next_up(self) -> Self {
                 self.next_up()
@@ -118,8 +115,8 @@ mod two_product {
     }
 }
 
-float!(f32, glam::Vec3, u32, 23, sqrt::sqrtf, libm::powf);
-float!(f64, glam::DVec3, u64, 52, sqrt::sqrt, libm::pow);
+float!(f32, glam::Vec3, u32, 23, sqrt::sqrtf);
+float!(f64, glam::DVec3, u64, 52, sqrt::sqrt);
 
 #[cfg(test)]
 mod tests {
@@ -180,6 +177,19 @@ mod tests {
             let exact = libm::tan(x.into());
             let bound = 4.0 * f64::from(f32::EPSILON) * (1.0 + exact) * exact;
             assert!((f64::from(Real::tan(x)) - exact).abs() <= bound, "{x}");
+        }
+    }
+
+    #[test]
+    fn powers_are_right_to_what_is_seen() {
+        for i in 0..=1000 {
+            let x = f64::from(i) / 1000.0;
+            for exponent in [0.0, 0.3, 1.0, 3.0827, 27.8, 100.0, 1.0e4, 3.0e38] {
+                let exact = libm::pow(x, exponent);
+                assert!((Real::powf(x, exponent) - exact).abs() < 1.0 / 2700.0, "{x} {exponent}");
+                let single = Real::powf(x as f32, exponent as f32);
+                assert!((f64::from(single) - exact).abs() < 0.001, "{x} {exponent}");
+            }
         }
     }
 

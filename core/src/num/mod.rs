@@ -12,8 +12,8 @@
 //! # What keeps the bits equal on every target
 //! Only `+ - * /`, comparisons, conversions and the correctly rounded square root touch a number on
 //! the way of a ray. Rust neither fuses nor reorders them. Minimum and maximum are written as
-//! comparisons, because the IEEE operations leave the sign of a zero open. `powf` comes from
-//! `libm`, which is the same code everywhere.
+//! comparisons, because the IEEE operations leave the sign of a zero open. Tangents and
+//! powers are made of these, too.
 
 mod float;
 mod sqrt;
@@ -98,8 +98,6 @@ pub trait Real:
     /// The square root, correctly rounded; of a negative number: not-a-number, or 0 where the
     /// type has none.
     fn sqrt(self) -> Self;
-    /// `self` to the power `exponent`, for `self` in 0 to 1 (highlights).
-    fn powf(self, exponent: Self) -> Self;
     /// The next greater number.
     fn next_up(self) -> Self;
     /// The next smaller number.
@@ -158,6 +156,34 @@ pub trait Real:
             divisor = Self::from_i32(odd) - squared / divisor;
         }
         if steep { divisor / x } else { x / divisor }
+    }
+    /// `self` to the power `exponent >= 0`, for `self` in 0 to 1: what highlights need. Whole powers
+    /// by squaring, the rest of the exponent by square roots, down to 1/1024, so that the result is
+    /// off by less than 1/2700; only operations that give the same bits everywhere.
+    fn powf(self, exponent: Self) -> Self {
+        let whole = exponent.floor_to_i32();
+        let mut power = Self::ONE;
+        let (mut square, mut digits) = (self, whole);
+        while digits > 0 {
+            if digits & 1 == 1 {
+                power = power * square;
+            }
+            square = square * square;
+            digits >>= 1;
+        }
+        let (mut root, mut rest) = (self, exponent - Self::from_i32(whole));
+        for _ in 0..10 {
+            if !(rest > Self::ZERO) {
+                break;
+            }
+            root = root.sqrt();
+            rest = rest + rest;
+            if rest >= Self::ONE {
+                power = power * root;
+                rest = rest - Self::ONE;
+            }
+        }
+        power
     }
     /// `n` units in the last place of 1.
     fn ulps(n: i32) -> Self {

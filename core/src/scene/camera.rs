@@ -36,6 +36,8 @@ impl core::error::Error for ViewError {}
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera<R: Real> {
     eye: Vec3<R>,
+    /// The eye's greatest coordinate.
+    reach: R,
     /// From the eye to the middle of the picture.
     forward: Vec3<R>,
     /// From the middle of the picture to its right edge.
@@ -64,13 +66,14 @@ impl<R: Real> Camera<R> {
             return Err(ViewError);
         }
         let half = (view.angle * R::HALF).tan();
-        Ok(Self { eye: view.from, forward, right: right * (half * aspect), up: up * half })
+        let (right, up) = (right * (half * aspect), up * half);
+        Ok(Self { eye: view.from, reach: view.from.max_abs(), forward, right, up })
     }
 
     /// The ray through a point of the picture: `x` from -1 at the left edge to 1 at the right,
     /// `y` from -1 at the lower edge to 1 at the upper. `None` only if numbers overflow.
     pub fn ray(&self, x: R, y: R) -> Option<Ray<R>> {
-        Ray::new(self.eye, self.forward + self.right * x + self.up * y).ok()
+        Ray::from(self.eye, self.forward + self.right * x + self.up * y, self.reach)
     }
 }
 

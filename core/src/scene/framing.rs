@@ -1,20 +1,17 @@
 //! Rays brought into the range in which the core computes.
 
 use super::{Scene, Shapes};
-use crate::geom::{Aabb, Interval, Ray, Slopes};
-use crate::num::{Real, Vector};
+use crate::geom::{Interval, Ray, Slopes};
+use crate::num::{Real, Vec3, Vector};
 
-/// Directions this many times longer or shorter than 1 are left as they are.
-const LONG: i32 = 16;
-
-/// How the ray that is traced relates to the ray that was asked for.
+/// A ray that was not fit to compute with, as it is traced instead.
 ///
-/// Brings a ray into the range in which the core computes: directions neither so long nor so short
-/// that squares overflow or vanish, by a power of two and therefore exactly; and an origin far away
-/// from the scene moved to where the ray comes near it, so that rounding errors are of the scene's
-/// size. Ordinary rays are left as they are.
-pub(crate) struct Framing<R> {
-    asked: Interval<R>,
+/// Directions so long or so short that squares overflow or vanish are scaled by a power of two and
+/// therefore exactly; an origin far away from the scene is moved to where the ray comes near it, so
+/// that rounding errors are of the scene's size.
+pub(crate) struct Framing<R: Real> {
+    pub(crate) ray: Ray<R>,
+    pub(crate) interval: Interval<R>,
     /// Factor of the direction, a power of two.
     scale: R,
     /// Parameter of the new origin, before scaling back.
@@ -24,66 +21,55 @@ pub(crate) struct Framing<R> {
 }
 
 impl<R: Real> Framing<R> {
+    /// Whether a ray needs none: nearly all.
     #[inline]
-    pub(crate) fn of<S: Shapes<R>>(
-        scene: &Scene<'_, R, S>,
-        ray: &Ray<R>,
-        asked: Interval<R>,
-    ) -> (Ray<R>, Interval<R>, Self) {
-        let ray = ray.with_slack(scene.slack());
-        let (o, d) = (ray.origin(), ray.direction());
-        // Squares, because they cost least; what overflows is not ordinary.
-        let (distance, length) = (R::narrow(o.dot(o)), R::narrow(d.dot(d)));
-        let (far, long) = (scene.far(), R::from_i32(LONG * LONG));
-        if distance <= far * far && length <= long && length * long >= R::ONE {
-            return (ray, asked, Self { asked, scale: R::ONE, shift: R::ZERO, near: true });
-        }
-        Self::of_extraordinary(ray, asked, scene.bounds(), far)
+    pub(crate) fn is_needless<S: Shapes<R>>(scene: &Scene<'_, R, S>, ray: &Ray<R>) -> bool {
+        ray.reach() <= scene.far()
     }
 
     #[cold]
     #[inline(never)]
-    fn of_extraordinary(
-        mut ray: Ray<R>,
+    pub(crate) fn of<S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        ray: &Ray<R>,
         asked: Interval<R>,
-        bounds: Aabb<R>,
-        far: R,
-    ) -> (Ray<R>, Interval<R>, Self) {
-        let mut framing = Self { asked, scale: R::ONE, shift: R::ZERO, near: true };
+    ) -> Self {
+        let (ray, far) = (ray.with_slack(scene.slack()), scene.far());
+        let mut framing = Self { ray, interval: asked, scale: R::ONE, shift: R::ZERO, near: true };
         // Where no number lies between the bounds, moving must not make room for some.
         if !(asked.min.next_up() < asked.max) {
+            framing.interval = Interval::new(R::ZERO, R::ZERO);
             framing.near = false;
-            return (ray, Interval::new(R::ZERO, R::ZERO), framing);
+            return framing;
         }
-        let mut interval = asked;
-        let length = ray.direction().max_abs();
-        let long = R::from_i32(LONG);
-        if length > long || length * long < R::ONE {
-            let (down, up) = length.scale_to_one();
-            ray = ray.rebased(ray.origin(), ray.direction() * down);
-            interval = Interval::new(interval.min * up, interval.max * up);
+        let (mut origin, mut direction) = (ray.origin(), ray.direction());
+        if ray.reach() == R::INFINITY {
+            let (down, up) = direction.max_abs().scale_to_one();
+            direction = direction * down;
+            framing.interval = Interval::new(asked.min * up, asked.max * up);
             framing.scale = down;
         }
-        if ray.origin().max_abs() > far {
-            let around = bounds.grown(far);
-            match Slopes::of(&ray).clip(around.lo, around.hi, -R::MAX, R::MAX) {
+        let scaled = |origin: Vec3<R>| Ray::from(origin, direction, origin.max_abs());
+        if origin.max_abs() > far {
+            let around = scene.bounds().grown(far);
+            let line = scaled(origin).unwrap_or(ray);
+            match Slopes::of(&line).clip(around.lo, around.hi, -R::MAX, R::MAX) {
                 Some((enter, _)) => {
-                    ray = ray.rebased(ray.at(enter), ray.direction());
-                    interval = Interval::new(interval.min - enter, interval.max - enter);
+                    origin = line.at(enter);
+                    let Interval { min, max } = framing.interval;
+                    framing.interval = Interval::new(min - enter, max - enter);
                     framing.shift = enter;
                 }
                 None => framing.near = false,
             }
         }
-        (ray, interval, framing)
+        framing.ray = scaled(origin).unwrap_or(ray).with_slack(scene.slack());
+        framing
     }
 
     /// A parameter of the traced ray as one of the ray that was asked for.
-    pub(crate) fn restore(&self, t: R) -> R {
-        if self.scale == R::ONE && self.shift == R::ZERO {
-            return t;
-        }
+    pub(crate) fn restore(&self, asked: Interval<R>, t: R) -> R {
         let t = (t + self.shift) * self.scale;
-        t.clamp(self.asked.min.next_up(), self.asked.max.next_down())
+        t.clamp(asked.min.next_up(), asked.max.next_down())
     }
 }

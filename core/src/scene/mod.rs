@@ -79,6 +79,8 @@ pub struct Scene<'a, R: Real, S> {
     paint: &'a [Paint],
     lights: &'a [Light<R>],
     background: Vec3<R>,
+    /// The material of what has none.
+    unpainted: Material<R>,
 }
 
 impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
@@ -102,8 +104,16 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
             bounds = Aabb { lo: Vec3::<R>::default(), hi: Vec3::<R>::default() };
         }
         let scale = bounds.max_abs();
-        let background = Vec3::<R>::default();
-        Ok(Self { shapes, bounds, scale, materials: &[], paint: &[], lights: &[], background })
+        Ok(Self {
+            shapes,
+            bounds,
+            scale,
+            materials: &[],
+            paint: &[],
+            lights: &[],
+            background: Vec3::<R>::default(),
+            unpainted: Material::default(),
+        })
     }
 
     /// Gives the shapes surfaces: every run of shapes its material.
@@ -179,18 +189,28 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
     }
 
     /// The surface of a shape. Searches the runs of paint by bisection.
-    pub fn material(&self, id: usize) -> Material<R> {
-        let after = self.paint.partition_point(|run| run.first <= id);
-        let run = after.checked_sub(1).and_then(|i| self.paint.get(i));
+    pub fn material(&self, id: usize) -> &Material<R> {
+        // Runs of one shape each are common.
+        let guess = self.paint.get(id).filter(|run| run.first == id);
+        let run = guess.or_else(|| {
+            let after = self.paint.partition_point(|run| run.first <= id);
+            self.paint.get(after.checked_sub(1)?)
+        });
         let material = run.map_or(0, |run| usize::from(run.material));
-        self.materials.get(material).copied().unwrap_or_default()
+        self.materials.get(material).unwrap_or(&self.unpainted)
     }
 
     /// The surface where a ray hit a shape; `None` where a normal cannot be told. The hit is one of
     /// that ray in this scene.
     pub fn surface(&self, ray: &Ray<R>, hit: &Hit<R>) -> Option<Surface<R>> {
-        let (ray, _, _) = Framing::of(self, ray, Interval::RAY);
-        let (ray, t, id) = (&ray, hit.local, hit.id);
+        if hit.as_asked {
+            return self.surface_on(ray, hit.local, hit.id);
+        }
+        let framing = Framing::of(self, ray, Interval::RAY);
+        self.surface_on(&framing.ray, hit.local, hit.id)
+    }
+
+    fn surface_on(&self, ray: &Ray<R>, t: R, id: usize) -> Option<Surface<R>> {
         let d = ray.direction();
         let outside = self.shapes.normal(id, ray, t).unit()?;
         let front = outside.dot(d) <= R::Wide::default();
@@ -202,8 +222,9 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
             None => normal,
         };
         let point = ray.at(t);
-        let error = R::ulps(POINT_ERROR) * ray.origin().max_abs().max(point.max_abs());
-        Some(Surface { point, normal, shading, front, error })
+        let reach = point.max_abs();
+        let error = R::ulps(POINT_ERROR) * ray.reach().max(reach);
+        Some(Surface { point, normal, shading, front, error, reach: reach + error })
     }
 }
 
@@ -221,6 +242,8 @@ pub struct Surface<R: Real> {
     /// How far `point` may be from the surface: a new ray that starts so far off it, along the
     /// normal, does not meet it again for rounding's sake.
     pub error: R,
+    /// At least the greatest coordinate of where rays start from here.
+    pub(crate) reach: R,
 }
 
 /// Bound of a hit point's error, in units of the last place of the coordinates involved: t, its

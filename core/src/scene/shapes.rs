@@ -8,6 +8,7 @@
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3};
 use crate::shape::{Shape, ShapeError};
+use core::ops::Range;
 
 /// A numbered set of shapes.
 pub trait Shapes<R: Real> {
@@ -42,6 +43,40 @@ pub trait Shapes<R: Real> {
 
     /// See [`Shape::occludes`].
     fn occludes(&self, id: usize, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> bool;
+
+    /// The nearest hit of the shapes in a range of ids: which, and where. Of several at the same `t`
+    /// the one with the least id.
+    fn nearest_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        mut max: R,
+    ) -> Option<(usize, R)> {
+        let mut nearest = None;
+        for id in ids {
+            if let Some(t) = self.hit(id, ray, per_ray, min, max)
+                && (t < max || nearest.is_none())
+            {
+                nearest = Some((id, t));
+                max = t;
+            }
+        }
+        nearest
+    }
+
+    /// The first shape in a range of ids that is hit at all.
+    fn any_of(
+        &self,
+        mut ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<usize> {
+        ids.find(|id| self.occludes(*id, ray, per_ray, min, max))
+    }
 
     /// See [`Shape::normal`].
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R>;
@@ -140,6 +175,36 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         }
     }
 
+    fn nearest_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<(usize, R)> {
+        let (first, second, count) = split(ids, self.0.count());
+        let first = self.0.nearest_of(first, ray, &per_ray.0, min, max);
+        let max = first.map_or(max, |(_, t)| t);
+        match self.1.nearest_of(second, ray, &per_ray.1, min, max) {
+            Some((id, t)) if t < max || first.is_none() => Some((id + count, t)),
+            _ => first,
+        }
+    }
+
+    fn any_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<usize> {
+        let (first, second, count) = split(ids, self.0.count());
+        let first = self.0.any_of(first, ray, &per_ray.0, min, max);
+        first.or_else(|| Some(self.1.any_of(second, ray, &per_ray.1, min, max)? + count))
+    }
+
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
         match id.checked_sub(self.0.count()) {
             None => self.0.normal(id, ray, t),
@@ -153,4 +218,11 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
             Some(id) => self.1.shading_normal(id, ray, t),
         }
     }
+}
+
+/// The parts of a range of ids that belong to the first and to the second of two sets, each counted
+/// as the set does, and the number of shapes in the first.
+fn split(ids: Range<usize>, count: usize) -> (Range<usize>, Range<usize>, usize) {
+    let second = ids.start.saturating_sub(count)..ids.end.saturating_sub(count);
+    (ids.start.min(count)..ids.end.min(count), second, count)
 }

@@ -4,6 +4,7 @@ use super::Shapes;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::shape::{AxisBox, Cone, Cylinder, Plane, Polygon, Shape, ShapeError, Sphere, Triangle};
+use core::ops::Range;
 
 /// Triangles, of which the first few may have a normal at each corner.
 #[derive(Clone, Copy, Debug, Default)]
@@ -126,6 +127,28 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
 
     fn occludes(&self, id: usize, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> bool {
         self.chain().occludes(id, ray, per_ray, min, max)
+    }
+
+    fn nearest_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<(usize, R)> {
+        self.chain().nearest_of(ids, ray, per_ray, min, max)
+    }
+
+    fn any_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<usize> {
+        self.chain().any_of(ids, ray, per_ray, min, max)
     }
 
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {

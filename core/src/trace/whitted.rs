@@ -73,33 +73,36 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         let mut pending = Vec::<Pending<R>, { MOST_DEPTH as usize }>::new();
         let mut next = Some(Pending { ray, weight: R::ONE, depth: 1 });
         while let Some(Pending { ray, weight, depth }) = next {
+            next = None;
             let hit = self.accel.nearest(self.scene, &ray, Interval::RAY, &mut self.mailbox, probe);
             let kind = if depth == 1 { RayKind::Primary } else { RayKind::Secondary };
             probe.ray(kind, hit.is_some());
-            let surface = hit.and_then(|hit| {
-                let surface = self.scene.surface(&ray, &hit)?;
-                Some((surface, self.scene.material(hit.id)))
-            });
+            let surface = hit.and_then(|hit| Some((self.scene.surface(&ray, &hit)?, hit.id)));
             match surface {
                 None => color = color + self.scene.background() * weight,
-                Some((surface, material)) => {
-                    let bounce = Bounce::new(&ray, surface, material);
+                Some((surface, id)) => {
+                    let bounce = Bounce::new(&ray, &surface, self.scene.material(id));
                     color = color + self.local(&bounce, probe) * weight;
                     if depth < self.settings.max_depth {
-                        for (ray, share) in bounce.spawn(self.settings.secondary) {
-                            let depth = depth + 1;
-                            let _ = pending.push(Pending { ray, weight: weight * share, depth });
+                        let depth = depth + 1;
+                        let follow = |(ray, share)| Pending { ray, weight: weight * share, depth };
+                        let (through, mirrored) = bounce.spawn(self.settings.secondary);
+                        next = mirrored.map(follow);
+                        if let Some(through) = through.map(follow)
+                            && let Some(mirrored) = next.replace(through)
+                        {
+                            let _ = pending.push(mirrored);
                         }
                     }
                 }
             }
-            next = pending.pop();
+            next = next.or_else(|| pending.pop());
         }
         color
     }
 
     /// Light that comes straight from the lamps.
-    fn local<P: Probe>(&mut self, bounce: &Bounce<R>, probe: &mut P) -> Vec3<R> {
+    fn local<P: Probe>(&mut self, bounce: &Bounce<'_, R>, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         for light in self.scene.lights() {
             let Some((ray, distance)) = bounce.towards(light) else { continue };
@@ -115,31 +118,39 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 }
 
 /// A ray's arrival at a surface.
-struct Bounce<R: Real> {
-    surface: Surface<R>,
-    material: Material<R>,
-    /// Direction of arrival and of the mirrored ray, of length 1; zero where nothing mirrors.
+struct Bounce<'s, R: Real> {
+    surface: &'s Surface<R>,
+    material: &'s Material<R>,
+    /// Direction of arrival.
     direction: Vec3<R>,
+    /// The mirrored direction, as long; zero where nothing mirrors.
     mirrored: Vec3<R>,
+    /// Its squared length.
+    squared: R,
     /// From the surface to where rays on the near side start.
     off: Vec3<R>,
 }
 
-impl<R: Real> Bounce<R> {
-    fn new(ray: &Ray<R>, surface: Surface<R>, material: Material<R>) -> Self {
-        let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
-        let direction = if mirrors { ray.direction().unit() } else { None }.unwrap_or_default();
+/// A ray that goes on from a surface, and its share.
+type Spawned<R> = Option<(Ray<R>, R)>;
+
+impl<'s, R: Real> Bounce<'s, R> {
+    fn new(ray: &Ray<R>, surface: &'s Surface<R>, material: &'s Material<R>) -> Self {
+        let direction = ray.direction();
         let mirror = |n: Vec3<R>| {
             let along = R::narrow(direction.dot(n));
             direction - n * (along + along)
         };
-        let mut mirrored = mirror(surface.shading);
-        if mirrored.dot(surface.normal) < R::Wide::default() {
-            // An interpolated normal would send the ray into the surface.
-            mirrored = mirror(surface.normal);
+        let mut mirrored = Vec3::<R>::default();
+        if material.specular > R::ZERO || material.transmission > R::ZERO {
+            mirrored = mirror(surface.shading);
+            if mirrored.dot(surface.normal) < R::Wide::default() {
+                // An interpolated normal would send the ray into the surface.
+                mirrored = mirror(surface.normal);
+            }
         }
         let off = surface.normal * surface.error;
-        Self { surface, material, direction, mirrored, off }
+        Self { surface, material, direction, mirrored, squared: ray.squared(), off }
     }
 
     /// The ray to a light, its direction of length 1, and the light's parameter; `None` when the
@@ -147,18 +158,19 @@ impl<R: Real> Bounce<R> {
     fn towards(&self, light: &Light<R>) -> Option<(Ray<R>, R)> {
         let origin = self.surface.point + self.off;
         let towards = light.position - origin;
-        let unit = towards.unit()?;
         let zero = R::Wide::default();
-        let faces = |n: Vec3<R>| n.dot(unit) > zero;
+        let faces = |n: Vec3<R>| n.dot(towards) > zero;
         if !(faces(self.surface.shading) && faces(self.surface.normal)) {
             return None;
         }
-        Some((Ray::spawned(origin, unit)?, R::narrow(towards.dot(unit))))
+        let unit = towards.unit()?;
+        let ray = Ray::from(origin, unit, self.surface.reach)?;
+        Some((ray, R::narrow(towards.dot(unit))))
     }
 
-    /// What the surface sends back of white light from a direction.
+    /// What the surface sends back of white light from a direction of length 1.
     fn reflected(&self, towards: Vec3<R>) -> Vec3<R> {
-        let Material { diffuse, specular, shine, .. } = self.material;
+        let Material { diffuse, specular, shine, .. } = *self.material;
         let color = self.material.color_at(self.surface.point, self.surface.normal);
         let cosine = R::narrow(self.surface.shading.dot(towards));
         let matt = color * (diffuse * cosine);
@@ -169,13 +181,13 @@ impl<R: Real> Bounce<R> {
         if !(highlight > R::ZERO) {
             return matt;
         }
-        let highlight = specular * highlight.min(R::ONE).powf(shine);
-        matt + Vec3::<R>::splat(highlight)
+        let highlight = (highlight / self.squared.sqrt()).min(R::ONE);
+        matt + Vec3::<R>::splat(specular * highlight.powf(shine))
     }
 
-    /// The rays that go on from here, each with its share.
-    fn spawn(&self, secondary: Secondary) -> impl Iterator<Item = (Ray<R>, R)> {
-        let Material { specular, transmission, .. } = self.material;
+    /// The rays that go on from here: the one that goes through, and the mirrored one.
+    fn spawn(&self, secondary: Secondary) -> (Spawned<R>, Spawned<R>) {
+        let Material { specular, transmission, .. } = *self.material;
         let through = if transmission > R::ZERO { self.refracted() } else { None };
         // Where nothing can leave, everything is mirrored.
         let total = transmission > R::ZERO && through.is_none();
@@ -184,11 +196,10 @@ impl<R: Real> Bounce<R> {
             Secondary::Contributing => share > R::ZERO,
             Secondary::All => specular > R::ZERO || transmission > R::ZERO,
         };
-        let point = self.surface.point;
-        let ray = |origin, direction, share| Some((Ray::spawned(origin, direction)?, share));
+        let Surface { point, reach, .. } = *self.surface;
+        let ray = |origin, direction, share| Some((Ray::from(origin, direction, reach)?, share));
         let mirrored = if mirrors { ray(point + self.off, self.mirrored, share) } else { None };
-        let through = through.and_then(|d| ray(point - self.off, d, transmission));
-        through.into_iter().chain(mirrored)
+        (through.and_then(|d| ray(point - self.off, d, transmission)), mirrored)
     }
 
     /// Direction behind the surface, after Snell; `None` for total reflection.
@@ -197,15 +208,16 @@ impl<R: Real> Bounce<R> {
         if !(index > R::ZERO) || index == R::ONE {
             return Some(self.direction);
         }
+        let direction = self.direction.unit()?;
         let ratio = if self.surface.front { R::ONE / index } else { index };
-        let Surface { normal, shading, .. } = self.surface;
-        let cosine = -R::narrow(self.direction.dot(shading));
+        let Surface { normal, shading, .. } = *self.surface;
+        let cosine = -R::narrow(direction.dot(shading));
         let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
         if !(under_root >= R::ZERO) {
             return None;
         }
-        let bent = self.direction * ratio + shading * (ratio * cosine - under_root.sqrt());
+        let bent = direction * ratio + shading * (ratio * cosine - under_root.sqrt());
         // An interpolated normal may send the ray back to where it comes from: then straight on.
-        Some(if bent.dot(normal) < R::Wide::default() { bent } else { self.direction })
+        Some(if bent.dot(normal) < R::Wide::default() { bent } else { direction })
     }
 }
