@@ -1,9 +1,9 @@
-//! One page of 64 KiB that cannot grow, the stack in its first 8 KiB: what overflows it traps.
+//! Two pages of 64 KiB that cannot grow, the stack in their first 8 KiB: what overflows it traps.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     for argument in
-        ["-zstack-size=8192", "--stack-first", "--initial-memory=65536", "--max-memory=65536"]
+        ["-zstack-size=8192", "--stack-first", "--initial-memory=131072", "--max-memory=131072"]
     {
         println!("cargo::rustc-link-arg-cdylib={argument}");
     }

@@ -15,13 +15,28 @@ pub fn start() {
     imp::start();
 }
 
-/// Instructions that `f` takes, to the nearest tick.
-pub fn count<T>(f: impl FnOnce() -> T) -> (u64, T) {
-    let before = imp::ticks();
-    let result = f();
-    let ticks = imp::ticks() - before;
-    // Whole seconds first, so that no product gets too great.
-    (ticks / HERTZ * PER_SECOND + ticks % HERTZ * PER_SECOND / HERTZ, result)
+/// Adds up what pieces of work take.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stopwatch {
+    ticks: u64,
+}
+
+impl Stopwatch {
+    /// Does a piece of work. Reading the clock counts as part of it, with about 20 instructions;
+    /// what a tick rounds off evens out over many pieces.
+    #[inline(always)]
+    pub fn time<T>(&mut self, work: impl FnOnce() -> T) -> T {
+        let before = imp::ticks();
+        let result = work();
+        self.ticks += imp::ticks() - before;
+        result
+    }
+
+    /// Instructions that all of it took.
+    pub fn instructions(&self) -> u64 {
+        // Whole seconds first, so that no product gets too great.
+        self.ticks / HERTZ * PER_SECOND + self.ticks % HERTZ * PER_SECOND / HERTZ
+    }
 }
 
 #[cfg(target_arch = "arm")]

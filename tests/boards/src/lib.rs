@@ -23,21 +23,31 @@ pub mod stack;
 #[cfg(target_arch = "arm")]
 #[doc(hidden)]
 pub use cortex_m_rt as rt;
+#[doc(hidden)]
+pub use kibiray_scenes::Subject;
 #[cfg(target_arch = "riscv32")]
 #[doc(hidden)]
 pub use riscv_rt as rt;
 
-/// The whole of a firmware program: an arena of the machine's size, and the run of one subject.
+/// The whole of a firmware program: an arena of the machine's size, room for a row of pixels, and
+/// some work done in them.
 #[macro_export]
 macro_rules! firmware {
-    ($subject:ty) => {
+    (work: $work:expr, $columns:expr) => {
         static ARENA: $crate::block::Block<{ $crate::machine::ARENA }> =
             $crate::block::Block::new();
+        static ROW: $crate::block::Block<{ 3 * $columns as usize }> = $crate::block::Block::new();
 
         #[$crate::rt::entry]
         fn main() -> ! {
-            $crate::run::run::<$subject>(&ARENA)
+            $crate::run::run(&ARENA, &ROW, $work)
         }
+    };
+    ($subject:ty) => {
+        $crate::firmware!(
+            work: $crate::run::subject::<$subject>,
+            <$subject as $crate::Subject>::SIZE.0
+        );
     };
 }
 

@@ -7,7 +7,7 @@ use kibiray::memory::Part;
 use semihosting::process;
 
 /// What is known of the arena after a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct ArenaUse<'a> {
     /// Its bytes.
     pub capacity: usize,
@@ -24,6 +24,8 @@ pub struct ArenaUse<'a> {
 pub struct Report<'a> {
     /// The subject's name.
     pub scene: &'static str,
+    /// The structure's.
+    pub structure: &'static str,
     /// Checksum of the picture.
     pub image_crc32: u32,
     /// Checksum of the answers to ray queries.
@@ -38,8 +40,10 @@ pub struct Report<'a> {
     pub build: u64,
     /// Instructions per pixel, rounded down.
     pub per_pixel: u64,
-    /// Instructions per ray query (nearest hit and any hit), rounded down.
-    pub per_ray: u64,
+    /// Instructions per ray for its nearest hit, rounded down.
+    pub per_nearest: u64,
+    /// Instructions per ray for any hit, rounded down.
+    pub per_any: u64,
 }
 
 /// A JSON object that is being written.
@@ -81,6 +85,7 @@ impl Object {
 #[inline(never)]
 pub fn print(report: &Report<'_>) {
     let mut json = begin(report.scene);
+    json.text("structure", report.structure);
     json.sum("image_crc32", report.image_crc32);
     json.sum("hits_crc32", report.hits_crc32);
     let stopped_by = match report.stopped_by {
@@ -105,7 +110,8 @@ pub fn print(report: &Report<'_>) {
     json.0.text(if report.arena.parts.is_empty() { "[]}" } else { "}]}" });
     json.number("stack_bytes", report.stack as u64);
     json.number("instr_per_pixel", report.per_pixel);
-    json.number("instr_per_ray", report.per_ray);
+    json.number("instr_per_nearest", report.per_nearest);
+    json.number("instr_per_any", report.per_any);
     json.number("instr_build", report.build);
     json.0.text("}\n");
 }

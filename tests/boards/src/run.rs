@@ -1,68 +1,144 @@
 //! One subject on one machine.
 
 use crate::block::Block;
+use crate::clock::{self, Stopwatch};
 use crate::report::{ArenaUse, Report};
-use crate::{clock, report, stack};
-use kibiray::accel::{Octree, mailbox};
+use crate::{report, stack};
+use kibiray::accel::octree::StoppedBy;
+use kibiray::accel::{Accel, mailbox};
+use kibiray::geom::Interval;
 use kibiray::memory::Arena;
-use kibiray::scene::Camera;
+use kibiray::scene::{Camera, Scene};
 use kibiray::trace::{Renderer, Settings, Tracer};
-use kibiray_scenes::{Answers, Checksum, Crc32, Subject};
+use kibiray_scenes::{Crc32, Plain, Row, Structure, Subject, answer};
 use semihosting::process;
 
-/// Builds a subject's octree, renders its picture, shoots its rays, prints the report and ends the
-/// program.
-pub fn run<S: Subject>(memory: &'static Block<{ crate::machine::ARENA }>) -> ! {
+/// Does some work in the memory that is given, and ends the program.
+pub fn run<const ARENA: usize, const ROW: usize>(
+    arena: &'static Block<ARENA>,
+    row: &'static Block<ROW>,
+    work: impl FnOnce(&mut [u8], &mut [u8]) -> Result<(), &'static str>,
+) -> ! {
     clock::start();
-    let Some(memory) = memory.take() else { report::fail("the arena is taken", 1) };
-    match work::<S>(memory) {
+    let (Some(arena), Some(row)) = (arena.take(), row.take()) else {
+        report::fail("the memory is taken", 1)
+    };
+    stack::paint();
+    match work(arena, row) {
         Ok(()) => process::exit(0),
         Err(what) => report::fail(what, 1),
     }
 }
 
+/// Builds a subject's structure, renders its picture, shoots its rays, and prints the report.
+///
+/// # Errors
+/// What went wrong.
 #[inline(never)]
-fn work<S: Subject>(memory: &mut [u8]) -> Result<(), &'static str> {
+pub fn subject<S: Subject>(memory: &mut [u8], row: &mut [u8]) -> Result<(), &'static str> {
     let mut arena = Arena::new(memory);
-    stack::paint();
-
     let scene = S::scene().map_err(|_| "the scene is refused")?;
-    let (build, octree) = clock::count(|| Octree::<f32, u16>::build(&scene, S::LIMITS, &mut arena));
-    let octree = octree.map_err(|_| "no octree")?;
-
-    let (width, height) = S::SIZE;
-    let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height));
-    let camera = camera.map_err(|_| "no camera")?;
-    let tracer = Tracer::new(&scene, &octree, mailbox::Off, Settings::default());
-    let mut renderer = Renderer::new(tracer, camera, width, height);
-    let mut picture = Checksum::new(S::SIZE);
-    let (render, drawn) = clock::count(|| renderer.draw(&mut picture, &mut ()));
-    drawn.map_err(|_| "pixels out of order")?;
-
-    let mut hits = Crc32::new();
-    let answers = Answers::<S, _, _>::new(&scene, &octree, mailbox::Off);
-    let (shoot, ()) = clock::count(|| answers.for_each(|answer| hits.update(&answer)));
-
-    let stack = stack::high_water();
-    if stack + 4 > stack::capacity() {
-        return Err("the stack ran into the statics");
-    }
-    let pixels = u64::from(width) * u64::from(height);
+    let mut build = Stopwatch::default();
+    let accel =
+        build.time(|| S::Structure::build(&scene, &mut arena)).map_err(|_| "no structure")?;
+    let (image_crc32, per_pixel) = picture::<S>(&scene, &accel, row)?;
+    let (hits_crc32, per_nearest, per_any) = queries::<S>(&scene, &accel);
     report::print(&Report {
         scene: S::NAME,
-        image_crc32: picture.finish().ok_or("pixels are missing")?,
-        hits_crc32: hits.finish(),
-        stopped_by: octree.stopped_by(),
+        structure: S::Structure::NAME,
+        image_crc32,
+        hits_crc32,
+        stopped_by: S::Structure::stopped_by(&accel),
         arena: ArenaUse {
             capacity: arena.capacity(),
             used: arena.used(),
             high_water: arena.high_water(),
             parts: arena.parts(),
         },
-        stack,
-        build,
-        per_pixel: render.checked_div(pixels).unwrap_or(0),
-        per_ray: shoot.checked_div(S::RAYS.into()).unwrap_or(0),
+        stack: stack::checked()?,
+        build: build.instructions(),
+        per_pixel,
+        per_nearest,
+        per_any,
+    });
+    Ok(())
+}
+
+/// The checksum of a subject's picture, and instructions a pixel. The clock stands while a row is
+/// summed up.
+#[inline(never)]
+fn picture<S: Subject>(
+    scene: &Scene<'_, f32, S::Shapes>,
+    accel: &impl Accel<f32>,
+    row: &mut [u8],
+) -> Result<(u32, u64), &'static str> {
+    let (width, height) = S::SIZE;
+    let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height));
+    let camera = camera.map_err(|_| "no camera")?;
+    let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
+    let tracer = Tracer::new(scene, accel, mailbox::Off, settings);
+    let mut renderer = Renderer::new(tracer, camera, width, height);
+    let mut row = Row::new(row, height);
+    let (mut sum, mut render) = (Crc32::new(), Stopwatch::default());
+    for _ in 0..height {
+        let drawn = render.time(|| renderer.draw_row(&mut row, &mut ()));
+        drawn.map_err(|_| "rows out of order")?;
+        sum.update(row.bytes());
+    }
+    Ok((sum.finish(), per_pixel(render, S::SIZE)))
+}
+
+/// The checksum of the answers to a subject's queries, and instructions a ray for the nearest hit
+/// and for any.
+#[inline(never)]
+fn queries<S: Subject>(
+    scene: &Scene<'_, f32, S::Shapes>,
+    accel: &impl Accel<f32>,
+) -> (u32, u64, u64) {
+    let (mut sum, mut rays) = (Crc32::new(), 0_u64);
+    let (mut nearest, mut any) = (Stopwatch::default(), Stopwatch::default());
+    let mut off = mailbox::Off;
+    for shot in S::rays() {
+        let hit =
+            nearest.time(|| accel.nearest(scene, &shot.ray, Interval::RAY, &mut off, &mut ()));
+        let blocked =
+            any.time(|| accel.occluded(scene, &shot.ray, shot.between, &mut off, &mut ()));
+        sum.update(&answer(hit, blocked));
+        rays += 1;
+    }
+    let per_ray = |watch: Stopwatch| watch.instructions().checked_div(rays).unwrap_or(0);
+    (sum.finish(), per_ray(nearest), per_ray(any))
+}
+
+fn per_pixel(watch: Stopwatch, (width, height): (u16, u16)) -> u64 {
+    let pixels = u64::from(width) * u64::from(height);
+    watch.instructions().checked_div(pixels).unwrap_or(0)
+}
+
+/// Renders the card's picture by the plain program, and prints the report.
+///
+/// # Errors
+/// What went wrong.
+#[inline(never)]
+pub fn plain(_memory: &mut [u8], row: &mut [u8]) -> Result<(), &'static str> {
+    let picture = Plain::new();
+    let (mut sum, mut render) = (Crc32::new(), Stopwatch::default());
+    for y in 0..Plain::SIZE.1 {
+        render.time(|| picture.row(y, row));
+        sum.update(row);
+    }
+    report::print(&Report {
+        scene: "card_plain",
+        structure: "plain",
+        image_crc32: sum.finish(),
+        stack: stack::checked()?,
+        per_pixel: per_pixel(render, Plain::SIZE),
+        hits_crc32: 0,
+        stopped_by: StoppedBy::Done,
+        arena: ArenaUse::default(),
+        build: 0,
+        per_nearest: 0,
+        per_any: 0,
     });
     Ok(())
 }

@@ -42,8 +42,16 @@ pub fn paint() {
 }
 
 /// Most bytes that the stack has taken since it was painted.
+///
+/// # Errors
+/// When it has taken all, and perhaps more.
+pub fn checked() -> Result<usize, &'static str> {
+    let bytes = high_water();
+    if bytes + 4 > capacity() { Err("the stack ran into the statics") } else { Ok(bytes) }
+}
+
 #[inline(never)]
-pub fn high_water() -> usize {
+fn high_water() -> usize {
     let mut address = bottom();
     // SAFETY: the same memory as in `paint`; the loop ends at the top of the stack at the latest.
     while address < top() && unsafe { read_volatile(address as *const u32) } == PAINT {

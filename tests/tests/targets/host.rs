@@ -6,11 +6,12 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{OriginDimensions, Size};
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
 use kibiray::accel::octree::StoppedBy;
-use kibiray::accel::{Accel, Naive, Octree, mailbox};
+use kibiray::accel::{Accel, Naive, mailbox};
+use kibiray::geom::Interval;
 use kibiray::memory::Arena;
 use kibiray::scene::{Camera, Scene};
 use kibiray::trace::{Renderer, Settings, Tracer};
-use kibiray_scenes::{Answers, Subject};
+use kibiray_scenes::{Card, Plain, Structure, Subject, answer};
 use serde::Deserialize;
 use std::convert::Infallible;
 
@@ -51,20 +52,40 @@ impl DrawTarget for Picture {
     }
 }
 
+/// A subject's picture as rows of 8-bit RGB.
+fn picture<S: Subject>(
+    scene: &Scene<'static, f32, S::Shapes>,
+    accel: &impl Accel<f32>,
+) -> Result<Vec<u8>> {
+    let (width, height) = S::SIZE;
+    let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height))?;
+    let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
+    let tracer = Tracer::new(scene, accel, mailbox::Off, settings);
+    let bytes = usize::from(width) * usize::from(height) * 3;
+    let mut picture = Picture { size: S::SIZE, rows: vec![0; bytes] };
+    Renderer::new(tracer, camera, width, height).draw(&mut picture, &mut ())?;
+    Ok(picture.rows)
+}
+
+fn hex(bytes: &[u8]) -> String {
+    format!("{:08x}", crc32fast::hash(bytes))
+}
+
 impl Sums {
     fn of<S: Subject>(
         scene: &Scene<'static, f32, S::Shapes>,
         accel: &impl Accel<f32>,
     ) -> Result<Self> {
-        let (width, height) = S::SIZE;
-        let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height))?;
-        let tracer = Tracer::new(scene, accel, mailbox::Off, Settings::default());
-        let bytes = usize::from(width) * usize::from(height) * 3;
-        let mut picture = Picture { size: S::SIZE, rows: vec![0; bytes] };
-        Renderer::new(tracer, camera, width, height).draw(&mut picture, &mut ())?;
-        let answers: Vec<_> = Answers::<S, _, _>::new(scene, accel, mailbox::Off).collect();
-        let hex = |bytes: &[u8]| format!("{:08x}", crc32fast::hash(bytes));
-        Ok(Self { image: hex(&picture.rows), hits: hex(answers.as_flattened()) })
+        let off = &mut mailbox::Off;
+        let answers: Vec<_> = S::rays()
+            .map(|shot| {
+                let hit = accel.nearest(scene, &shot.ray, Interval::RAY, off, &mut ());
+                let blocked = accel.occluded(scene, &shot.ray, shot.between, off, &mut ());
+                answer(hit, blocked)
+            })
+            .collect();
+        ensure!(!answers.is_empty(), "no rays");
+        Ok(Self { image: hex(&picture::<S>(scene, accel)?), hits: hex(answers.as_flattened()) })
     }
 
     /// By testing every shape.
@@ -72,6 +93,40 @@ impl Sums {
         let scene = S::scene()?;
         Self::of::<S>(&scene, &Naive::new(&scene))
     }
+}
+
+/// The picture of the plain program.
+fn plain() -> Vec<u8> {
+    let (width, height) = Plain::SIZE;
+    let picture = Plain::new();
+    let mut rows = vec![0; usize::from(width) * usize::from(height) * 3];
+    for (y, row) in (0..).zip(rows.chunks_mut(usize::from(width) * 3)) {
+        picture.row(y, row);
+    }
+    rows
+}
+
+/// The checksum of the plain program's picture.
+pub(crate) fn plain_sum() -> String {
+    hex(&plain())
+}
+
+/// So many pixels of 10,000 may differ between the library's card and the plain one's: rounding
+/// decides on which side of an edge a pixel falls.
+const DIFFERING: usize = 50;
+
+/// The plain program renders what the library renders.
+pub(crate) fn plain_is_the_card() -> Result<()> {
+    let scene = Card::scene()?;
+    let card = picture::<Card>(&scene, &Naive::new(&scene))?;
+    let plain = plain();
+    let pixels = card.as_chunks::<3>().0.iter().zip(plain.as_chunks::<3>().0);
+    let differs = |(a, b): &(&[u8; 3], &[u8; 3])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 1);
+    let differing = pixels.filter(differs).count();
+    let all = card.len() / 3;
+    println!("{differing} of {all} pixels of the two cards differ by more than one step");
+    ensure!(differing * 10_000 <= DIFFERING * all, "{differing} of {all} pixels differ");
+    Ok(())
 }
 
 /// Bytes of an arena that go by a name.
@@ -86,26 +141,32 @@ pub(crate) struct Part {
 pub(crate) struct Memory {
     /// Its bytes.
     pub(crate) capacity: usize,
-    used: usize,
-    high_water: usize,
+    /// Bytes that are taken.
+    pub(crate) used: usize,
+    /// Most bytes that were taken.
+    pub(crate) high_water: usize,
     parts: Vec<Part>,
 }
 
-/// Builds a subject's octree in an arena and does something with it.
-fn with_octree<S: Subject, T>(
+/// Builds a subject's structure in an arena and does something with it.
+fn with_structure<S: Subject, T>(
     capacity: usize,
-    work: impl FnOnce(&Scene<'static, f32, S::Shapes>, &Octree<'_, f32, u16>, &Arena<'_>) -> Result<T>,
+    work: impl FnOnce(
+        &Scene<'static, f32, S::Shapes>,
+        &<S::Structure as Structure>::Built<'_>,
+        &Arena<'_>,
+    ) -> Result<T>,
 ) -> Result<T> {
     let mut memory = kibiray_tests::Memory::new(capacity);
     let mut arena = Arena::new(memory.bytes(capacity));
     let scene = S::scene()?;
-    let octree = Octree::build(&scene, S::LIMITS, &mut arena)?;
-    work(&scene, &octree, &arena)
+    let built = S::Structure::build(&scene, &mut arena)?;
+    work(&scene, &built, &arena)
 }
 
-/// How a subject's octree uses an arena of that capacity, and why it is not finer.
+/// How a subject's structure uses an arena of that capacity, and why it is not finer.
 pub(crate) fn arena<S: Subject>(capacity: usize) -> Result<(Memory, &'static str)> {
-    with_octree::<S, _>(capacity, |_, octree, arena| {
+    with_structure::<S, _>(capacity, |_, built, arena| {
         let part =
             |part: &kibiray::memory::Part| Part { name: part.name.into(), bytes: part.bytes };
         let memory = Memory {
@@ -114,7 +175,7 @@ pub(crate) fn arena<S: Subject>(capacity: usize) -> Result<(Memory, &'static str
             high_water: arena.high_water(),
             parts: arena.parts().iter().map(part).collect(),
         };
-        let stopped_by = match octree.stopped_by() {
+        let stopped_by = match S::Structure::stopped_by(built) {
             StoppedBy::Done => "done",
             StoppedBy::Level => "level",
             StoppedBy::Memory => "memory",
@@ -127,14 +188,14 @@ pub(crate) fn arena<S: Subject>(capacity: usize) -> Result<(Memory, &'static str
 /// of testing every shape.
 pub(crate) fn structures_agree<S: Subject>() -> Result<()> {
     let expected = Sums::of_naive::<S>()?;
-    let least = with_octree::<S, _>(0, |_, _, _| Ok(())).err();
-    let least = least.context("an octree of no bytes")?;
+    let least = with_structure::<S, _>(0, |_, _, _| Ok(())).err();
+    let least = least.context("a structure of no bytes")?;
     let least = match least.downcast_ref() {
         Some(kibiray::accel::BuildError::Memory(out)) => out.needed,
         _ => return Err(anyhow!("no bytes are refused for another reason: {least:#}")),
     };
     for capacity in [least, 2 << 10, 8 << 10, 64 << 10] {
-        let sums = with_octree::<S, _>(capacity, |scene, octree, _| Sums::of::<S>(scene, octree))?;
+        let sums = with_structure::<S, _>(capacity, |scene, built, _| Sums::of::<S>(scene, built))?;
         ensure!(sums == expected, "{capacity} bytes: {sums:?} instead of {expected:?}");
     }
     Ok(())

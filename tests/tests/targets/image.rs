@@ -5,11 +5,12 @@ use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, elf};
 use std::fs;
 use std::path::Path;
 
-/// A linked program: its symbols and how much of it lies in flash.
+/// A linked program: its symbols and what it takes.
 #[derive(Debug)]
 pub(crate) struct Image {
     symbols: Vec<String>,
     flash: u64,
+    ram: u64,
 }
 
 impl Image {
@@ -21,21 +22,30 @@ impl Image {
             file.symbols().filter_map(|s| s.name().ok()).map(String::from).collect();
         // Otherwise nothing would be found because nothing is told.
         ensure!(symbols.iter().any(|name| name == "main"), "no symbols in {}", path.display());
-        let in_flash = |flags| match flags {
-            SectionFlags::Elf { sh_flags, .. } => sh_flags.0 & elf::SHF_ALLOC.0 != 0,
+        let has = |section: &object::Section<'_, '_>, flag: u64| match section.flags() {
+            SectionFlags::Elf { sh_flags, .. } => sh_flags.0 & flag != 0,
             _ => false,
         };
-        let flash = file
-            .sections()
-            .filter(|section| in_flash(section.flags()))
-            .filter_map(|section| Some(section.file_range()?.1))
-            .sum();
-        Ok(Self { symbols, flash })
+        let (mut flash, mut ram) = (0, 0);
+        for section in file.sections().filter(|section| has(section, elf::SHF_ALLOC.0)) {
+            flash += section.file_range().map_or(0, |(_, bytes)| bytes);
+            // Where the stack may grow is not taken by anything.
+            let free = matches!(section.name()?, ".heap" | ".stack");
+            if has(&section, elf::SHF_WRITE.0) && !free {
+                ram += section.size();
+            }
+        }
+        Ok(Self { symbols, flash, ram })
     }
 
     /// Bytes of code, constants and initial values.
     pub(crate) fn flash(&self) -> u64 {
         self.flash
+    }
+
+    /// Bytes of all statics.
+    pub(crate) fn ram(&self) -> u64 {
+        self.ram
     }
 
     /// Symbols with one of these in their names.

@@ -1,8 +1,10 @@
 //! WebAssembly, run by node.
 
+use crate::goldens::Row;
+use crate::machine::program;
 use crate::{cross, host, run, tools};
 use anyhow::{Result, ensure};
-use kibiray_scenes::Subject;
+use kibiray_scenes::{Structure, Subject};
 use serde::Deserialize;
 use std::fs;
 use std::path::PathBuf;
@@ -22,9 +24,15 @@ pub(crate) fn tools() -> Result<Tools, String> {
     Ok(Tools { node: tools::find("node")?, cross: cross::Tools::find("wasm-ld")? })
 }
 
+/// By which number the module knows a subject: its place among [`kibiray_scenes::all`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Number(pub(crate) usize);
+
+/// Bytes of the module's memory, fixed when it is linked.
+const MEMORY: usize = 2 * 65_536;
+
 #[derive(Deserialize)]
 struct Report {
-    scene: String,
     image_crc32: String,
     hits_crc32: String,
     memory_bytes: usize,
@@ -32,20 +40,23 @@ struct Report {
 }
 
 /// Builds the module, runs it, and compares.
-pub(crate) fn run<S: Subject>(tools: &Tools) -> Result<()> {
+pub(crate) fn run<S: Subject>(tools: &Tools, Number(number): Number) -> Result<()> {
     let (built, _guard) = cross::build(&tools.cross, "wasm", TARGET, "")?;
+    let module = built.join("kibiray_wasm.wasm");
     let mut command = Command::new(&tools.node);
-    command.arg(cross::source("wasm").join("run.mjs")).arg(built.join("kibiray_wasm.wasm"));
+    command.arg(cross::source("wasm").join("run.mjs")).arg(module).arg(number.to_string());
     let (line, report) = run::report::<Report>(&mut command)?;
     let kept = cross::target_dir().join("wasm");
     fs::create_dir_all(&kept)?;
     fs::write(kept.join(S::NAME).with_extension("json"), line + "\n")?;
 
-    ensure!(report.scene == S::NAME, "ran {}", report.scene);
     let expected = host::Sums::of_naive::<S>()?;
     let sums = [&report.image_crc32, &report.hits_crc32];
     ensure!(sums == [&expected.image, &expected.hits], "{sums:?} instead of {expected:?}");
-    ensure!(report.memory_bytes == 65_536, "{} bytes of memory", report.memory_bytes);
+    ensure!(report.memory_bytes == MEMORY, "{} bytes of memory", report.memory_bytes);
     ensure!(report.imports == 0, "{} imports", report.imports);
-    Ok(())
+    Row::new(&program::<S>(), S::Structure::NAME, "wasm")
+        .with("image", report.image_crc32)
+        .with("hits", report.hits_crc32)
+        .check()
 }

@@ -2,21 +2,27 @@
 //!
 //! The same bits are promised everywhere, so a test needs no picture: a checksum from the device is
 //! compared with what the host computes from the same constants. Everything here is `no_std` and
-//! lies in flash. A further scene is a further file with a type that implements [`Subject`].
+//! lies in flash. A further scene is a further file with a type that implements [`Subject`], and a
+//! line in [`all`].
 #![no_std]
 
+mod card;
 mod crc;
 mod lcg;
 mod marbles;
 mod picture;
+mod plain;
 mod queries;
+pub mod structure;
 
+pub use card::Card;
 pub use crc::Crc32;
 pub use marbles::Marbles;
-pub use picture::{Checksum, OutOfOrder};
-pub use queries::{Answer, Answers};
+pub use picture::{OutOfOrder, Row};
+pub use plain::Plain;
+pub use queries::{Answer, Around, Shot, answer};
+pub use structure::Structure;
 
-use kibiray::accel::octree::Limits;
 use kibiray::scene::{Scene, SceneError, Shapes, View};
 
 /// A scene with the work that is done on it.
@@ -25,12 +31,10 @@ pub trait Subject {
     const NAME: &'static str;
     /// Width and height of the picture.
     const SIZE: (u16, u16);
-    /// Number of ray queries.
-    const RAYS: u32;
-    /// How far from the origin, along each axis, queries start.
-    const REACH: f32;
-    /// Parameters of the octree.
-    const LIMITS: Limits;
+    /// Depth to which rays are followed.
+    const DEPTH: u8 = 5;
+    /// What the device builds over the shapes.
+    type Structure: Structure;
     /// The kinds of shapes.
     type Shapes: Shapes<f32>;
 
@@ -42,4 +46,19 @@ pub trait Subject {
 
     /// Where the picture is taken from.
     fn view() -> View<f32>;
+
+    /// The rays that queries are about.
+    fn rays() -> impl Iterator<Item = Shot>;
+}
+
+/// Does something with every subject.
+pub trait Each {
+    /// Does it with this one.
+    fn subject<S: Subject>(&mut self);
+}
+
+/// All subjects, always in the same order.
+pub fn all(each: &mut impl Each) {
+    each.subject::<Marbles>();
+    each.subject::<Card>();
 }

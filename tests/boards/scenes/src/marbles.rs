@@ -1,8 +1,8 @@
 //! Two hundred marbles above a floor.
 
-use crate::Subject;
 use crate::lcg::Lcg;
-use kibiray::accel::octree::Limits;
+use crate::queries::{Around, Shot};
+use crate::{Subject, structure};
 use kibiray::num::Vec3;
 use kibiray::scene::{Light, Material, Paint, Scene, SceneError, View};
 use kibiray::shape::{Sphere, Triangle};
@@ -60,9 +60,7 @@ static LIGHTS: [Light<f32>; 2] = [
 impl Subject for Marbles {
     const NAME: &'static str = "marbles";
     const SIZE: (u16, u16) = (32, 24);
-    const RAYS: u32 = 400;
-    const REACH: f32 = 1.0;
-    const LIMITS: Limits = Limits { max_objects: 2, max_level: 8 };
+    type Structure = structure::Octree<2, 8>;
     type Shapes = (&'static [Sphere<f32>], &'static [Triangle<f32>]);
 
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
@@ -73,5 +71,9 @@ impl Subject for Marbles {
 
     fn view() -> View<f32> {
         View { from: V::new(1.0, 1.0, 3.5), at: V::new(0.0, -0.125, 0.0), up: V::Y, angle: 0.9 }
+    }
+
+    fn rays() -> impl Iterator<Item = Shot> {
+        Around::new(400, 1.0)
     }
 }

@@ -1,61 +1,70 @@
-//! A display that keeps a checksum instead of pixels.
+//! A display that is one row high.
 
-use crate::Crc32;
 use embedded_graphics_core::Pixel;
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{OriginDimensions, Point, Size};
 use embedded_graphics_core::pixelcolor::{Rgb888, RgbColor};
+use embedded_graphics_core::primitives::Rectangle;
 
-/// A pixel came that is not the next one, row by row from the upper left.
+/// Something was drawn that is not the next row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OutOfOrder;
 
-/// Sums up the rows of 8-bit RGB. A picture of any size in 20 bytes.
-#[derive(Clone, Debug)]
-pub struct Checksum {
-    size: Size,
-    next: Point,
-    crc: Crc32,
+/// Keeps the row drawn last, as 8-bit RGB, like the buffer that a display driver sends from: a
+/// picture of any size in three bytes a column. Rows have to come from the top, each in one piece.
+#[derive(Debug)]
+pub struct Row<'m> {
+    pixels: &'m mut [[u8; 3]],
+    height: u16,
+    next: u16,
 }
 
-impl Checksum {
-    /// Of a picture of so many pixels.
-    pub const fn new((width, height): (u16, u16)) -> Self {
-        let size = Size::new(width as u32, height as u32);
-        Self { size, next: Point::new(0, 0), crc: Crc32::new() }
+impl<'m> Row<'m> {
+    /// Of a picture of that height, as wide as the bytes suffice for.
+    pub fn new(bytes: &'m mut [u8], height: u16) -> Self {
+        Self { pixels: bytes.as_chunks_mut().0, height, next: 0 }
     }
 
-    /// The checksum; `None` while pixels are missing.
-    pub fn finish(&self) -> Option<u32> {
-        let done = self.next == Point::new(0, self.size.height as i32);
-        done.then(|| self.crc.finish())
+    /// The row drawn last.
+    pub fn bytes(&self) -> &[u8] {
+        self.pixels.as_flattened()
+    }
+
+    fn place(&self) -> Rectangle {
+        let origin = Point::new(0, i32::from(self.next));
+        Rectangle::new(origin, Size::new(self.pixels.len() as u32, 1))
     }
 }
 
-impl OriginDimensions for Checksum {
+impl OriginDimensions for Row<'_> {
     fn size(&self) -> Size {
-        self.size
+        Size::new(self.pixels.len() as u32, self.height.into())
     }
 }
 
-impl DrawTarget for Checksum {
+impl DrawTarget for Row<'_> {
     type Color = Rgb888;
     type Error = OutOfOrder;
 
-    fn draw_iter<I>(&mut self, pixels: I) -> Result<(), OutOfOrder>
+    fn draw_iter<I>(&mut self, _pixels: I) -> Result<(), OutOfOrder>
     where
         I: IntoIterator<Item = Pixel<Rgb888>>,
     {
-        for Pixel(place, color) in pixels {
-            if place != self.next || place.y >= self.size.height as i32 {
-                return Err(OutOfOrder);
-            }
-            self.crc.update(&[color.r(), color.g(), color.b()]);
-            self.next = if place.x + 1 == self.size.width as i32 {
-                Point::new(0, place.y + 1)
-            } else {
-                Point::new(place.x + 1, place.y)
-            };
+        Err(OutOfOrder)
+    }
+
+    fn fill_contiguous<I>(&mut self, area: &Rectangle, colors: I) -> Result<(), OutOfOrder>
+    where
+        I: IntoIterator<Item = Rgb888>,
+    {
+        if self.next >= self.height || *area != self.place() {
+            return Err(OutOfOrder);
+        }
+        self.next += 1;
+        let mut colors = colors.into_iter();
+        for pixel in &mut *self.pixels {
+            let color = colors.next().ok_or(OutOfOrder)?;
+            *pixel = [color.r(), color.g(), color.b()];
         }
         Ok(())
     }
@@ -66,18 +75,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pixels_have_to_come_in_order() {
-        let pixel = |x, y| Pixel(Point::new(x, y), Rgb888::new(1, 2, 3));
-        let mut sum = Checksum::new((2, 2));
-        sum.draw_iter([pixel(0, 0), pixel(1, 0), pixel(0, 1)]).unwrap();
-        assert_eq!(sum.finish(), None);
-        assert_eq!(sum.clone().draw_iter([pixel(0, 1)]), Err(OutOfOrder));
-        sum.draw_iter([pixel(1, 1)]).unwrap();
-        let mut crc = Crc32::new();
-        for _ in 0..4 {
-            crc.update(&[1, 2, 3]);
-        }
-        assert_eq!(sum.finish(), Some(crc.finish()));
-        assert_eq!(sum.draw_iter([pixel(0, 2)]), Err(OutOfOrder));
+    fn rows_have_to_come_in_order_and_whole() {
+        let mut bytes = [0; 6];
+        let mut display = Row::new(&mut bytes, 2);
+        let row = |y| Rectangle::new(Point::new(0, y), Size::new(2, 1));
+        let colors = [Rgb888::new(1, 2, 3), Rgb888::new(4, 5, 6)];
+        assert_eq!(display.fill_contiguous(&row(1), colors), Err(OutOfOrder));
+        assert_eq!(display.fill_contiguous(&row(0), colors), Ok(()));
+        assert_eq!(display.bytes(), [1, 2, 3, 4, 5, 6]);
+        assert_eq!(display.fill_contiguous(&row(0), colors), Err(OutOfOrder));
+        let short = [Rgb888::new(7, 8, 9)];
+        assert_eq!(display.fill_contiguous(&row(1), short), Err(OutOfOrder));
+        assert_eq!(display.fill_contiguous(&row(2), colors), Err(OutOfOrder));
     }
 }

@@ -1,74 +1,67 @@
-//! Ray queries and their answers as bytes.
+//! Rays to ask about, and answers as bytes.
 
-use crate::Subject;
 use crate::lcg::Lcg;
-use core::fmt;
-use core::marker::PhantomData;
-use kibiray::accel::{Accel, Mailbox};
+use kibiray::accel::Hit;
 use kibiray::geom::{Interval, Ray};
 use kibiray::num::Vec3;
-use kibiray::scene::Scene;
 
 /// What one ray met: the bits of `t` and the id of the nearest hit, little end first (all ones for
-/// a miss), then 1 or 0 for whether anything lies between the origin and parameter 1.
+/// a miss), then 1 or 0 for whether anything blocks the way.
 pub type Answer = [u8; 9];
 
-/// Shoots a subject's rays, one at every call of `next`: every other one starts inside the
-/// subject's reach, the rest mostly outside of it; directions are of any length.
-pub struct Answers<'a, S: Subject, A, M> {
-    scene: &'a Scene<'a, f32, S::Shapes>,
-    accel: &'a A,
-    mailbox: M,
+/// An answer from what the two queries gave.
+pub fn answer(hit: Option<Hit<f32>>, blocked: bool) -> Answer {
+    let mut answer = [0xff; 9];
+    if let Some(hit) = hit {
+        answer[..4].copy_from_slice(&hit.t.to_bits().to_le_bytes());
+        answer[4..8].copy_from_slice(&(hit.id as u32).to_le_bytes());
+    }
+    answer[8] = blocked.into();
+    answer
+}
+
+/// A ray, and the piece of it that may be blocked.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// Asked for its nearest hit.
+    pub ray: Ray<f32>,
+    /// Asked for any hit.
+    pub between: Interval<f32>,
+}
+
+/// Rays with directions of any length: every other one starts near the origin, the rest mostly
+/// farther away, towards the middle. Blocked is asked for up to where the ray aims.
+#[derive(Clone, Debug)]
+pub struct Around {
+    reach: f32,
     random: Lcg,
     left: u32,
-    subject: PhantomData<S>,
 }
 
-impl<'a, S: Subject, A: Accel<f32>, M: Mailbox> Answers<'a, S, A, M> {
-    /// The answers that a structure over the subject's scene gives.
-    pub fn new(scene: &'a Scene<'a, f32, S::Shapes>, accel: &'a A, mailbox: M) -> Self {
-        Self { scene, accel, mailbox, random: Lcg(1), left: S::RAYS, subject: PhantomData }
-    }
-
-    /// The next ray; `None` for a direction of zero.
-    fn ray(&mut self) -> Option<Ray<f32>> {
-        let r = &mut self.random;
-        let inside = self.left.is_multiple_of(2);
-        let reach = if inside { S::REACH } else { S::REACH * 4.0 };
-        let origin = Vec3::<f32>::new(r.signed(), r.signed(), r.signed()) * reach;
-        // Rays from far away would mostly miss: they aim at the middle, more or less.
-        let towards = Vec3::<f32>::new(r.signed(), r.signed(), r.signed()) * S::REACH;
-        let direction = if inside { towards } else { towards - origin };
-        Ray::new(origin, direction).ok()
+impl Around {
+    /// So many rays, half of them from within `reach` of the origin along each axis.
+    pub const fn new(rays: u32, reach: f32) -> Self {
+        Self { reach, random: Lcg(1), left: rays }
     }
 }
 
-impl<S: Subject, A: Accel<f32>, M: Mailbox> Iterator for Answers<'_, S, A, M> {
-    type Item = Answer;
+impl Iterator for Around {
+    type Item = Shot;
 
-    fn next(&mut self) -> Option<Answer> {
-        if self.left == 0 {
-            return None;
+    fn next(&mut self) -> Option<Shot> {
+        // A direction of zero makes no ray; the next one is taken.
+        while self.left > 0 {
+            let r = &mut self.random;
+            let inside = self.left.is_multiple_of(2);
+            self.left -= 1;
+            let reach = if inside { self.reach } else { self.reach * 4.0 };
+            let origin = Vec3::<f32>::new(r.signed(), r.signed(), r.signed()) * reach;
+            let towards = Vec3::<f32>::new(r.signed(), r.signed(), r.signed()) * self.reach;
+            let direction = if inside { towards } else { towards - origin };
+            if let Ok(ray) = Ray::new(origin, direction) {
+                return Some(Shot { ray, between: Interval::new(0.0, 1.0) });
+            }
         }
-        let ray = self.ray();
-        self.left -= 1;
-        let mut answer = [0xff; 9];
-        let Some(ray) = ray else { return Some(answer) };
-        let (scene, mailbox) = (self.scene, &mut self.mailbox);
-        let hit = self.accel.nearest(scene, &ray, Interval::RAY, mailbox, &mut ());
-        let near = Interval::new(0.0, 1.0);
-        let blocked = self.accel.occluded(scene, &ray, near, mailbox, &mut ());
-        if let Some(hit) = hit {
-            answer[..4].copy_from_slice(&hit.t.to_bits().to_le_bytes());
-            answer[4..8].copy_from_slice(&(hit.id as u32).to_le_bytes());
-        }
-        answer[8] = blocked.into();
-        Some(answer)
-    }
-}
-
-impl<S: Subject, A, M> fmt::Debug for Answers<'_, S, A, M> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} answers about {}", self.left, S::NAME)
+        None
     }
 }
