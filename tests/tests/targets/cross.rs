@@ -34,6 +34,20 @@ pub(crate) fn source(package: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(package)
 }
 
+/// Flags from outside would replace those of a package, and with them the linker script. The library
+/// path is that of the compiler that built this test.
+pub(crate) fn without_flags(command: &mut Command) -> &mut Command {
+    for (name, _) in env::vars_os() {
+        let name = name.to_string_lossy();
+        let flags = name.ends_with("RUSTFLAGS") || name.starts_with("CARGO_PROFILE_");
+        let compiler = name.starts_with("RUSTC") || name.starts_with("CARGO_BUILD_");
+        if flags || compiler || name == "LD_LIBRARY_PATH" {
+            command.env_remove(&*name);
+        }
+    }
+    command
+}
+
 /// Builds a package for a target, without std and without alloc. Gives the folder that it lies in,
 /// which stays as it is as long as the guard is held.
 pub(crate) fn build(
@@ -45,16 +59,7 @@ pub(crate) fn build(
     let guard = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = target_dir();
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    // Flags from outside would replace those of the package, and with them the linker script. The
-    // library path is that of the compiler that built this test.
-    for (name, _) in env::vars_os() {
-        let name = name.to_string_lossy();
-        let flags = name.ends_with("RUSTFLAGS") || name.starts_with("CARGO_PROFILE_");
-        let compiler = name.starts_with("RUSTC") || name.starts_with("CARGO_BUILD_");
-        if flags || compiler || name == "LD_LIBRARY_PATH" {
-            command.env_remove(&*name);
-        }
-    }
+    without_flags(&mut command);
     let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
     command
         .args(["build", "--release", "--locked", "-Z", "build-std=core", "--target", target])

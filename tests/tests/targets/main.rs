@@ -6,6 +6,7 @@
 //! A test whose tools are missing is reported as ignored, in CI (`CI=true`) it fails.
 
 mod cross;
+mod examples;
 mod goldens;
 mod host;
 mod image;
@@ -30,6 +31,10 @@ fn main() -> ExitCode {
     for machine in &machine::ALL {
         let name = format!("card_plain_on_{}", machine.name);
         trials.trials.push(trial(name, machine.tools(), |tools| machine.run_plain(&tools)));
+    }
+    let example = [examples::picture as fn() -> _, examples::range];
+    for (name, test) in ["example_picture", "example_range"].into_iter().zip(example) {
+        trials.trials.push(trial(name.into(), examples::tools(), move |()| test()));
     }
     kibiray_scenes::all(&mut trials);
     let conclusion = libtest_mimic::run(&arguments, trials.trials);
