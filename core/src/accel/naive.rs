@@ -6,7 +6,7 @@ use crate::geom::Ray;
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
 
-/// Tests all bounded shapes of a scene; needs no memory.
+/// Tests all shapes of a scene; needs no memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Naive {
     shapes: usize,
@@ -15,11 +15,13 @@ pub struct Naive {
 impl Naive {
     /// For the shapes of a scene.
     pub fn new<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Self {
-        Self { shapes: scene.shapes().bounded() }
+        Self { shapes: scene.shapes().count() }
     }
 }
 
 impl<R: Real> Accel<R> for Naive {
+    const HANDS_OVER_ALL: bool = true;
+
     fn walk<V: Visitor<R>>(&self, _ray: &Ray<R>, visitor: &mut V) {
         visitor.visit_range(0..self.shapes);
     }

@@ -44,6 +44,9 @@ pub trait Visitor<R: Real> {
 
 /// A structure over the shapes of a scene.
 pub trait Accel<R: Real> {
+    /// Whether [`Accel::walk`] hands over shapes without bounds, too; no division of space can.
+    const HANDS_OVER_ALL: bool = false;
+
     /// Walks along a ray from [`Visitor::start`] and hands over the lists of the cells that it
     /// passes, in order, until [`Visitor::limit`] is reached. Steps are bounded by the number of
     /// cells.
@@ -86,8 +89,8 @@ pub trait Accel<R: Real> {
 }
 
 /// Runs a query and gives back its goal, reached or not, and the last limit.
-fn search<R: Real, S: Shapes<R>, G: Goal<R>>(
-    accel: &(impl Accel<R> + ?Sized),
+fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
+    accel: &A,
     scene: &Scene<'_, R, S>,
     ray: &Ray<R>,
     interval: Interval<R>,
@@ -95,28 +98,35 @@ fn search<R: Real, S: Shapes<R>, G: Goal<R>>(
     probe: &mut impl Probe,
     goal: G,
 ) -> (G, R) {
+    let framed;
     let (ray, interval, near) = if Framing::is_needless(scene, ray) {
-        (ray.with_slack(scene.slack()), interval, true)
+        (ray, interval, true)
     } else {
-        let Framing { ray, interval, near, .. } = Framing::of(scene, ray, interval);
-        (ray, interval, near)
+        framed = Framing::of(scene, ray, interval);
+        (&framed.ray, framed.interval, framed.near)
+    };
+    let own;
+    let ray = if ray.slack() == scene.slack() {
+        ray
+    } else {
+        own = ray.with_slack(scene.slack());
+        &own
     };
     let shapes = scene.shapes();
     let mut search = Search {
-        line: Line { shapes, ray: &ray, per_ray: shapes.per_ray(&ray) },
+        line: Line { shapes, ray, per_ray: shapes.per_ray(ray) },
         min: interval.min,
         limit: interval.max.next_down(),
         mailbox,
         probe,
         goal,
     };
-    // Without bounds they are in no structure. Their ids come last, so a tie is not theirs.
-    if !search.is_over() {
+    if S::UNBOUNDED && !A::HANDS_OVER_ALL && !search.is_over() {
         search.visit_range(shapes.bounded()..shapes.count());
     }
-    if near && !search.is_over() {
+    if (near || A::HANDS_OVER_ALL) && !search.is_over() {
         search.mailbox.next_ray();
-        accel.walk(&ray, &mut search);
+        accel.walk(ray, &mut search);
     }
     (search.goal, search.limit)
 }

@@ -50,8 +50,23 @@ impl<R: Real> Ray<R> {
     pub(crate) fn from(origin: Vec3<R>, direction: Vec3<R>, reach: R) -> Option<Self> {
         let squared = R::narrow(direction.dot(direction));
         let long = R::from_i32(LONG * LONG);
+        let ordinary = squared <= long && squared * long >= R::ONE;
         let ray = Self { origin, direction, squared, reach, slack: R::ZERO };
-        let ordinary = reach < R::INFINITY && squared <= long && squared * long >= R::ONE;
+        if ordinary && reach < R::INFINITY { Some(ray) } else { ray.extraordinary() }
+    }
+
+    /// Another ray of the same scene: from a point as in [`Ray::from`], its direction of the squared
+    /// length given, give or take its rounding.
+    #[inline]
+    pub(crate) fn turned(
+        &self,
+        origin: Vec3<R>,
+        direction: Vec3<R>,
+        squared: R,
+        reach: R,
+    ) -> Option<Self> {
+        let ray = Self { origin, direction, squared, reach, slack: self.slack };
+        let ordinary = self.reach.max(reach) < R::INFINITY;
         if ordinary { Some(ray) } else { ray.extraordinary() }
     }
 

@@ -34,6 +34,9 @@ macro_rules! float {
             fn sqrt(self) -> Self {
                 $sqrt(self)
             }
+            fn abs(self) -> Self {
+                self.abs()
+            }
             fn next_up(self) -> Self {
                 self.next_up()
             }

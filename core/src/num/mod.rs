@@ -121,9 +121,7 @@ pub trait Real:
     fn root(a: Self::Wide, b: Self::Wide, c: Self::Wide) -> Option<Self::Wide>;
 
     /// The absolute value.
-    fn abs(self) -> Self {
-        if self < Self::ZERO { -self } else { self }
-    }
+    fn abs(self) -> Self;
     /// The smaller one; `self` when they are equal, `other` when either is not a number.
     fn min(self, other: Self) -> Self {
         if self <= other { self } else { other }

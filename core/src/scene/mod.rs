@@ -203,14 +203,14 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
     /// The surface where a ray hit a shape; `None` where a normal cannot be told. The hit is one of
     /// that ray in this scene.
     pub fn surface(&self, ray: &Ray<R>, hit: &Hit<R>) -> Option<Surface<R>> {
-        if hit.as_asked {
-            return self.surface_on(ray, hit.local, hit.id);
-        }
-        let framing = Framing::of(self, ray, Interval::RAY);
-        self.surface_on(&framing.ray, hit.local, hit.id)
-    }
-
-    fn surface_on(&self, ray: &Ray<R>, t: R, id: usize) -> Option<Surface<R>> {
+        let framed;
+        let ray = if hit.as_asked {
+            ray
+        } else {
+            framed = Framing::of(self, ray, Interval::RAY).ray;
+            &framed
+        };
+        let (t, id) = (hit.local, hit.id);
         let d = ray.direction();
         let outside = self.shapes.normal(id, ray, t).unit()?;
         let front = outside.dot(d) <= R::Wide::default();

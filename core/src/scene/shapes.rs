@@ -15,6 +15,9 @@ pub trait Shapes<R: Real> {
     /// What the shapes want to know of a ray, computed once a ray.
     type PerRay: Copy + Default;
 
+    /// Whether some of them may have no bounds; where that is ruled out, no code handles it.
+    const UNBOUNDED: bool = true;
+
     /// How many there are.
     fn count(&self) -> usize;
 
@@ -89,6 +92,8 @@ pub trait Shapes<R: Real> {
 impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
     type PerRay = T::PerRay;
 
+    const UNBOUNDED: bool = !T::BOUNDED;
+
     fn count(&self) -> usize {
         self.len()
     }
@@ -117,6 +122,40 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
         self.get(id).is_some_and(|shape| shape.occludes(ray, per_ray, min, max))
     }
 
+    fn nearest_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &T::PerRay,
+        min: R,
+        mut max: R,
+    ) -> Option<(usize, R)> {
+        // Copies stay in registers.
+        let (ray, per_ray, mut nearest) = (*ray, *per_ray, None);
+        for (shape, id) in self.get(ids.clone())?.iter().zip(ids) {
+            if let Some(t) = shape.hit(&ray, &per_ray, min, max)
+                && (t < max || nearest.is_none())
+            {
+                nearest = Some((id, t));
+                max = t;
+            }
+        }
+        nearest
+    }
+
+    fn any_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &T::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<usize> {
+        let (ray, per_ray, start) = (*ray, *per_ray, ids.start);
+        let occludes = |shape: &T| shape.occludes(&ray, &per_ray, min, max);
+        Some(start + self.get(ids)?.iter().position(occludes)?)
+    }
+
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
         self.get(id).map_or_else(Vec3::<R>::default, |shape| shape.normal(ray, t))
     }
@@ -129,6 +168,8 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
 /// One set after the other: the ids of the second follow those of the first.
 impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
     type PerRay = (A::PerRay, B::PerRay);
+
+    const UNBOUNDED: bool = A::UNBOUNDED || B::UNBOUNDED;
 
     fn count(&self) -> usize {
         self.0.count() + self.1.count()

@@ -18,6 +18,8 @@ pub struct Triangles<'a, R: Real> {
 impl<R: Real> Shapes<R> for Triangles<'_, R> {
     type PerRay = <Triangle<R> as Shape<R>>::PerRay;
 
+    const UNBOUNDED: bool = false;
+
     fn count(&self) -> usize {
         self.triangles.count()
     }

@@ -38,8 +38,7 @@ pub struct Length<R: Real> {
 impl<R: Real> Length<R> {
     /// A division and a square root.
     pub(super) fn of(ray: &Ray<R>) -> Self {
-        let d = ray.direction();
-        let inverse_squared = R::ONE / R::narrow(d.dot(d));
+        let inverse_squared = R::ONE / ray.squared();
         Self { inverse_squared, inverse: inverse_squared.sqrt() }
     }
 }

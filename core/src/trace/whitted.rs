@@ -70,101 +70,121 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         // Each level leaves at most one ray behind, so it never holds more than the depth.
-        let mut pending = Vec::<Pending<R>, { MOST_DEPTH as usize }>::new();
-        let mut next = Some(Pending { ray, weight: R::ONE, depth: 1 });
-        while let Some(Pending { ray, weight, depth }) = next {
-            next = None;
-            let hit = self.accel.nearest(self.scene, &ray, Interval::RAY, &mut self.mailbox, probe);
-            let kind = if depth == 1 { RayKind::Primary } else { RayKind::Secondary };
-            probe.ray(kind, hit.is_some());
-            let surface = hit.and_then(|hit| Some((self.scene.surface(&ray, &hit)?, hit.id)));
-            match surface {
-                None => color = color + self.scene.background() * weight,
-                Some((surface, id)) => {
-                    let bounce = Bounce::new(&ray, &surface, self.scene.material(id));
-                    color = color + self.local(&bounce, probe) * weight;
-                    if depth < self.settings.max_depth {
-                        let depth = depth + 1;
-                        let follow = |(ray, share)| Pending { ray, weight: weight * share, depth };
-                        let (through, mirrored) = bounce.spawn(self.settings.secondary);
-                        next = mirrored.map(follow);
-                        if let Some(through) = through.map(follow)
-                            && let Some(mirrored) = next.replace(through)
-                        {
-                            let _ = pending.push(mirrored);
-                        }
-                    }
-                }
+        let mut later = Vec::<Pending<R>, { MOST_DEPTH as usize }>::new();
+        let mut now = Pending { ray: ray.with_slack(self.scene.slack()), weight: R::ONE, depth: 1 };
+        loop {
+            let weight = now.weight;
+            let (seen, goes_on) = self.follow(&mut now, &mut later, probe);
+            color = color + seen * weight;
+            if !goes_on {
+                let Some(next) = later.pop() else { return color };
+                now = next;
             }
-            next = next.or_else(|| pending.pop());
         }
-        color
+    }
+
+    /// What a ray sees, without what the rays that go on from there will see. Of these, one takes
+    /// the ray's place, if there is any; if there is another, it is left for later.
+    ///
+    /// A function of its own, so that its variables lie together and not beyond the pending rays:
+    /// small processors reach a few hundred bytes of stack at once.
+    #[inline(never)]
+    fn follow<P: Probe>(
+        &mut self,
+        now: &mut Pending<R>,
+        later: &mut Vec<Pending<R>, { MOST_DEPTH as usize }>,
+        probe: &mut P,
+    ) -> (Vec3<R>, bool) {
+        let scene = self.scene;
+        let hit = self.accel.nearest(scene, &now.ray, Interval::RAY, &mut self.mailbox, probe);
+        let kind = if now.depth == 1 { RayKind::Primary } else { RayKind::Secondary };
+        probe.ray(kind, hit.is_some());
+        let Some(hit) = hit else { return (scene.background(), false) };
+        let Some(surface) = scene.surface(&now.ray, &hit) else {
+            return (scene.background(), false);
+        };
+        let material = scene.material(hit.id);
+        let origin = surface.point + surface.normal * surface.error;
+        let mirrored = if material.specular > R::ZERO || material.transmission > R::ZERO {
+            mirrored(now.ray.direction(), &surface)
+        } else {
+            Vec3::<R>::default()
+        };
+        let arrival = Arrival { ray: &now.ray, surface: &surface, material, origin, mirrored };
+        let color = self.local(&arrival, probe);
+        if now.depth >= self.settings.max_depth {
+            return (color, false);
+        }
+        let (through, mirrored) = arrival.spawn(self.settings.secondary);
+        let (weight, depth) = (now.weight, now.depth + 1);
+        let pending = |(ray, share)| Pending { ray, weight: weight * share, depth };
+        match (through, mirrored) {
+            (None, None) => return (color, false),
+            (Some(only), None) | (None, Some(only)) => *now = pending(only),
+            (Some(through), Some(mirrored)) => {
+                *now = pending(through);
+                let _ = later.push(pending(mirrored));
+            }
+        }
+        (color, true)
     }
 
     /// Light that comes straight from the lamps.
-    fn local<P: Probe>(&mut self, bounce: &Bounce<'_, R>, probe: &mut P) -> Vec3<R> {
+    fn local<P: Probe>(&mut self, arrival: &Arrival<'_, R>, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         for light in self.scene.lights() {
-            let Some((ray, distance)) = bounce.towards(light) else { continue };
+            let Some((ray, distance)) = arrival.towards(light) else { continue };
             let between = Interval::new(R::ZERO, distance);
             let blocked = self.accel.occluded(self.scene, &ray, between, &mut self.mailbox, probe);
             probe.ray(RayKind::Shadow, blocked);
             if !blocked {
-                color = color + bounce.reflected(ray.direction()).scale(light.color);
+                color = color + arrival.reflected(ray.direction()).scale(light.color);
             }
         }
         color
     }
 }
 
+/// A direction mirrored by a surface.
+fn mirrored<R: Real>(direction: Vec3<R>, surface: &Surface<R>) -> Vec3<R> {
+    let mirror = |n: Vec3<R>| {
+        let along = R::narrow(direction.dot(n));
+        direction - n * (along + along)
+    };
+    let mirrored = mirror(surface.shading);
+    if mirrored.dot(surface.normal) < R::Wide::default() {
+        // An interpolated normal would send the ray into the surface.
+        return mirror(surface.normal);
+    }
+    mirrored
+}
+
 /// A ray's arrival at a surface.
-struct Bounce<'s, R: Real> {
-    surface: &'s Surface<R>,
-    material: &'s Material<R>,
-    /// Direction of arrival.
-    direction: Vec3<R>,
-    /// The mirrored direction, as long; zero where nothing mirrors.
+struct Arrival<'a, R: Real> {
+    ray: &'a Ray<R>,
+    surface: &'a Surface<R>,
+    material: &'a Material<R>,
+    /// Where rays on the near side start.
+    origin: Vec3<R>,
+    /// The mirrored direction, as long as the ray's; zero where nothing mirrors.
     mirrored: Vec3<R>,
-    /// Its squared length.
-    squared: R,
-    /// From the surface to where rays on the near side start.
-    off: Vec3<R>,
 }
 
 /// A ray that goes on from a surface, and its share.
 type Spawned<R> = Option<(Ray<R>, R)>;
 
-impl<'s, R: Real> Bounce<'s, R> {
-    fn new(ray: &Ray<R>, surface: &'s Surface<R>, material: &'s Material<R>) -> Self {
-        let direction = ray.direction();
-        let mirror = |n: Vec3<R>| {
-            let along = R::narrow(direction.dot(n));
-            direction - n * (along + along)
-        };
-        let mut mirrored = Vec3::<R>::default();
-        if material.specular > R::ZERO || material.transmission > R::ZERO {
-            mirrored = mirror(surface.shading);
-            if mirrored.dot(surface.normal) < R::Wide::default() {
-                // An interpolated normal would send the ray into the surface.
-                mirrored = mirror(surface.normal);
-            }
-        }
-        let off = surface.normal * surface.error;
-        Self { surface, material, direction, mirrored, squared: ray.squared(), off }
-    }
-
+impl<R: Real> Arrival<'_, R> {
     /// The ray to a light, its direction of length 1, and the light's parameter; `None` when the
     /// surface faces away.
     fn towards(&self, light: &Light<R>) -> Option<(Ray<R>, R)> {
-        let origin = self.surface.point + self.off;
-        let towards = light.position - origin;
+        let towards = light.position - self.origin;
         let zero = R::Wide::default();
         let faces = |n: Vec3<R>| n.dot(towards) > zero;
         if !(faces(self.surface.shading) && faces(self.surface.normal)) {
             return None;
         }
         let unit = towards.unit()?;
-        let ray = Ray::from(origin, unit, self.surface.reach)?;
+        let ray = self.ray.turned(self.origin, unit, R::ONE, self.surface.reach)?;
         Some((ray, R::narrow(towards.dot(unit))))
     }
 
@@ -181,14 +201,14 @@ impl<'s, R: Real> Bounce<'s, R> {
         if !(highlight > R::ZERO) {
             return matt;
         }
-        let highlight = (highlight / self.squared.sqrt()).min(R::ONE);
+        let highlight = (highlight / self.ray.squared().sqrt()).min(R::ONE);
         matt + Vec3::<R>::splat(specular * highlight.powf(shine))
     }
 
     /// The rays that go on from here: the one that goes through, and the mirrored one.
     fn spawn(&self, secondary: Secondary) -> (Spawned<R>, Spawned<R>) {
         let Material { specular, transmission, .. } = *self.material;
-        let through = if transmission > R::ZERO { self.refracted() } else { None };
+        let through = if transmission > R::ZERO { self.through() } else { None };
         // Where nothing can leave, everything is mirrored.
         let total = transmission > R::ZERO && through.is_none();
         let share = if total { specular + transmission } else { specular };
@@ -196,21 +216,26 @@ impl<'s, R: Real> Bounce<'s, R> {
             Secondary::Contributing => share > R::ZERO,
             Secondary::All => specular > R::ZERO || transmission > R::ZERO,
         };
-        let Surface { point, reach, .. } = *self.surface;
-        let ray = |origin, direction, share| Some((Ray::from(origin, direction, reach)?, share));
-        let mirrored = if mirrors { ray(point + self.off, self.mirrored, share) } else { None };
-        (through.and_then(|d| ray(point - self.off, d, transmission)), mirrored)
+        let mirrored = if mirrors {
+            let (squared, reach) = (self.ray.squared(), self.surface.reach);
+            self.ray.turned(self.origin, self.mirrored, squared, reach)
+        } else {
+            None
+        };
+        (through.map(|ray| (ray, transmission)), mirrored.map(|ray| (ray, share)))
     }
 
-    /// Direction behind the surface, after Snell; `None` for total reflection.
-    fn refracted(&self) -> Option<Vec3<R>> {
+    /// The ray behind the surface, after Snell; `None` for total reflection.
+    #[inline(never)]
+    fn through(&self) -> Option<Ray<R>> {
+        let Surface { point, normal, shading, front, error, reach } = *self.surface;
+        let origin = point - normal * error;
         let index = self.material.index;
         if !(index > R::ZERO) || index == R::ONE {
-            return Some(self.direction);
+            return self.ray.turned(origin, self.ray.direction(), self.ray.squared(), reach);
         }
-        let direction = self.direction.unit()?;
-        let ratio = if self.surface.front { R::ONE / index } else { index };
-        let Surface { normal, shading, .. } = *self.surface;
+        let direction = self.ray.direction().unit()?;
+        let ratio = if front { R::ONE / index } else { index };
         let cosine = -R::narrow(direction.dot(shading));
         let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
         if !(under_root >= R::ZERO) {
@@ -218,6 +243,7 @@ impl<'s, R: Real> Bounce<'s, R> {
         }
         let bent = direction * ratio + shading * (ratio * cosine - under_root.sqrt());
         // An interpolated normal may send the ray back to where it comes from: then straight on.
-        Some(if bent.dot(normal) < R::Wide::default() { bent } else { direction })
+        let straight = bent.dot(normal) >= R::Wide::default();
+        self.ray.turned(origin, if straight { direction } else { bent }, R::ONE, reach)
     }
 }
