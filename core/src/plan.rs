@@ -1,6 +1,6 @@
 //! From a scene and a number of bytes to a structure with its parameters, and the reason.
 
-use crate::accel::{self, BuildError, mailbox, octree};
+use crate::accel::{self, BuildError, bvh, mailbox, octree};
 use crate::memory::{Footprint, OutOfArena};
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
@@ -14,6 +14,8 @@ pub enum Structure {
     Grid,
     /// [`accel::Octree`].
     Octree,
+    /// [`accel::Bvh`].
+    Bvh,
 }
 
 /// What is already decided; the plan fills in the rest.
@@ -112,7 +114,8 @@ pub fn plan<R: Real, S: Shapes<R>>(
     };
     let mailbox = match (wishes.mailbox, structure) {
         (Some(mailbox), _) => mailbox,
-        (None, Structure::Naive) => mailbox::Kind::Off,
+        // They test no shape twice anyway.
+        (None, Structure::Naive | Structure::Bvh) => mailbox::Kind::Off,
         (None, _) => mailbox_for(shapes, budget),
     };
     let plan = |mailbox| fit(scene, budget, wishes, structure, mailbox);
@@ -145,9 +148,15 @@ fn fit<R: Real, S: Shapes<R>>(
             max_objects: wishes.max_objects.unwrap_or(MAX_OBJECTS),
             max_level: wishes.max_level.unwrap_or(octree::DEEPEST),
         }),
+        Structure::Bvh => {
+            let shapes = scene.shapes().bounded();
+            accel::Kind::Bvh(bvh::nodes_within(shapes, budget.saturating_sub(taken.kept)))
+        }
     };
     let least = match accel {
-        accel::Kind::Naive | accel::Kind::Grid(_) => accel::Any::footprint(accel, scene)?,
+        accel::Kind::Naive | accel::Kind::Grid(_) | accel::Kind::Bvh(_) => {
+            accel::Any::footprint(accel, scene)?
+        }
         accel::Kind::Octree(limits) => root_of(scene, limits)?,
     };
     let needed = taken.then(least).peak;

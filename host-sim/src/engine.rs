@@ -53,6 +53,7 @@ pub fn wishes(options: &Common) -> Wishes {
             AccelKind::Naive => Some(Structure::Naive),
             AccelKind::Grid => Some(Structure::Grid),
             AccelKind::Octree => Some(Structure::Octree),
+            AccelKind::Bvh => Some(Structure::Bvh),
         },
         mailbox: match options.mailbox {
             MailboxKind::Auto => None,

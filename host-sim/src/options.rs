@@ -198,6 +198,7 @@ pub enum AccelKind {
     Naive,
     Grid,
     Octree,
+    Bvh,
 }
 
 /// `--num`.

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use kibiray::accel::octree::StoppedBy;
-use kibiray::accel::{Any, Grid, Id, Octree};
+use kibiray::accel::{Any, Bvh, Grid, Id, Octree};
 use kibiray::memory::Arena;
 use kibiray::num::Real;
 use kibiray::probe::Counters;
@@ -107,6 +107,8 @@ impl AccelReport {
             Any::LargeGrid(grid) => Self::grid(grid),
             Any::Octree(octree) => Self::octree(octree),
             Any::LargeOctree(octree) => Self::octree(octree),
+            Any::Bvh(bvh) => Self::bvh(bvh),
+            Any::LargeBvh(bvh) => Self::bvh(bvh),
         };
         Self { mailbox, ..report }
     }
@@ -119,6 +121,17 @@ impl AccelReport {
             empty_leaves: Some(empty),
             references: Some(references),
             resolution: Some(grid.resolution()),
+            ..Self::default()
+        }
+    }
+
+    fn bvh<R: Real, I: Id + Eq + std::hash::Hash>(bvh: &Bvh<'_, R, I>) -> Self {
+        let (leaves, _, references, _) = lists(bvh.leaves());
+        Self {
+            kind: "bvh",
+            interior_nodes: Some(bvh.nodes()),
+            leaves: Some(leaves),
+            references: Some(references),
             ..Self::default()
         }
     }

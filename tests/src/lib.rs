@@ -1,6 +1,6 @@
 //! Helpers shared by the test programs of kibiray.
 
-use kibiray::accel::{Accel, Any, BuildError, Hit, Kind, grid, mailbox, octree};
+use kibiray::accel::{Accel, Any, BuildError, Hit, Kind, bvh, grid, mailbox, octree};
 use kibiray::geom::{Aabb, Interval, Ray};
 use kibiray::memory::Arena;
 use kibiray::num::{Real, Vec3, Vector};
@@ -139,6 +139,12 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     let octree = |max_objects, max_level| Kind::Octree(octree::Limits { max_objects, max_level });
     let cells = |n| Kind::Grid(grid::resolution_for(scene, scene.shapes().count() * n));
     let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (Kind::Grid([1; 3]), Off, UNLIMITED)];
+    // From the fewest nodes to one shape a leaf, and as a budget comes out.
+    let shapes = scene.shapes().bounded();
+    for nodes in [0, shapes / 16, shapes / 6, shapes] {
+        setups.push((Kind::Bvh(nodes), Off, UNLIMITED));
+    }
+    setups.push((Kind::Bvh(bvh::nodes_within(shapes, 16 << 10)), Cache, 16 << 10));
     for mailbox in [Off, Stamps, Cache] {
         for kind in [cells(3), Kind::Grid([16; 3]), Kind::Grid([7, 1, 30]), octree(1, 6)] {
             setups.push((kind, mailbox, UNLIMITED));

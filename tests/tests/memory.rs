@@ -31,7 +31,13 @@ fn answer<R: Real, S: Shapes<R>>(
 }
 
 fn wishes() -> Vec<Wishes> {
-    let structures = [None, Some(Structure::Naive), Some(Structure::Grid), Some(Structure::Octree)];
+    let structures = [
+        None,
+        Some(Structure::Naive),
+        Some(Structure::Grid),
+        Some(Structure::Octree),
+        Some(Structure::Bvh),
+    ];
     let mailboxes =
         [None, Some(mailbox::Kind::Off), Some(mailbox::Kind::Stamps), Some(mailbox::Kind::Cache)];
     structures
@@ -112,6 +118,9 @@ fn the_footprint_is_the_high_water_mark() {
             octree(1, 4),
             octree(8, 5),
             octree(100_000, 10),
+            Kind::Bvh(0),
+            Kind::Bvh(70),
+            Kind::Bvh(usize::MAX),
         ];
         for kind in kinds {
             let footprint = Any::footprint(kind, &scene).unwrap();

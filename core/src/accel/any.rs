@@ -1,7 +1,7 @@
 //! A structure whose kind is chosen while the program runs.
 
 use super::octree::{Limits, Octree};
-use super::{Accel, BuildError, Grid, Id, Naive, Visitor, grid};
+use super::{Accel, BuildError, Bvh, Grid, Id, Naive, Visitor, bvh, grid};
 use crate::geom::Ray;
 use crate::memory::{Arena, Footprint};
 use crate::num::Real;
@@ -16,6 +16,8 @@ pub enum Kind {
     Grid([u32; 3]),
     /// [`Octree`], within the memory that is free.
     Octree(Limits),
+    /// [`Bvh`] of so many nodes.
+    Bvh(usize),
 }
 
 /// One of the structures, with the smallest numbers that suffice. Programs that know which one they
@@ -34,6 +36,10 @@ pub enum Any<'m, R: Real> {
     Octree(Octree<'m, R, u16>),
     /// An octree with more shapes.
     LargeOctree(Octree<'m, R, u32>),
+    /// A hierarchy of up to 65,535 shapes.
+    Bvh(Bvh<'m, R, u16>),
+    /// A hierarchy of more shapes.
+    LargeBvh(Bvh<'m, R, u32>),
 }
 
 /// Which numbers a grid is stored in.
@@ -75,6 +81,10 @@ impl<'m, R: Real> Any<'m, R> {
                 Self::Octree(Octree::build(scene, limits, arena)?)
             }
             Kind::Octree(limits) => Self::LargeOctree(Octree::build(scene, limits, arena)?),
+            Kind::Bvh(nodes) if shapes <= <u16 as Id>::MAX => {
+                Self::Bvh(Bvh::build(scene, nodes, arena)?)
+            }
+            Kind::Bvh(nodes) => Self::LargeBvh(Bvh::build(scene, nodes, arena)?),
         })
     }
 
@@ -102,6 +112,8 @@ impl<'m, R: Real> Any<'m, R> {
                 Octree::<R, u16>::footprint(scene, limits)?
             }
             Kind::Octree(limits) => Octree::<R, u32>::footprint(scene, limits)?,
+            Kind::Bvh(nodes) if shapes <= <u16 as Id>::MAX => bvh::footprint::<u16>(shapes, nodes),
+            Kind::Bvh(nodes) => bvh::footprint::<u32>(shapes, nodes),
         })
     }
 }
@@ -115,6 +127,8 @@ impl<R: Real> Accel<R> for Any<'_, R> {
             Self::LargeGrid(grid) => grid.walk(ray, visitor),
             Self::Octree(octree) => octree.walk(ray, visitor),
             Self::LargeOctree(octree) => octree.walk(ray, visitor),
+            Self::Bvh(bvh) => bvh.walk(ray, visitor),
+            Self::LargeBvh(bvh) => bvh.walk(ray, visitor),
         }
     }
 }

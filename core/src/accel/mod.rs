@@ -13,6 +13,7 @@
 //! ray is a [`Mailbox`] that the caller lends.
 
 mod any;
+pub mod bvh;
 mod error;
 pub mod grid;
 mod id;
@@ -23,6 +24,7 @@ pub mod octree;
 mod query;
 
 pub use any::{Any, Kind};
+pub use bvh::Bvh;
 pub use error::BuildError;
 pub use grid::Grid;
 pub use id::Id;

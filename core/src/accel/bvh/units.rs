@@ -1,0 +1,104 @@
+//! Whole-number coordinates: boxes of shapes and the way of a ray through them.
+//!
+//! A cube around the scene is divided into [`ALONG`] units along each axis. The box of a shape is
+//! rounded outwards to units once, when the tree is built; from there on everything about boxes is
+//! exact, the same on every target, and needs no floating point. Units of 16 bits are about as fine
+//! as what boxes are padded by in `f32`, so more digits would gain nothing.
+
+use crate::accel::lattice;
+use crate::geom::{Aabb, Ray};
+use crate::num::{Axis, Real, Vec3, Vector};
+use crate::scene::{Scene, Shapes};
+
+/// Units along the longest axis of a scene. At most 255 times 256, so that every extent is at most
+/// 255 steps of a power of two up to 2^8.
+const ALONG: i32 = 65_000;
+
+/// A closed box in units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Bounds {
+    pub(super) lo: [u16; 3],
+    pub(super) hi: [u16; 3],
+}
+
+impl Bounds {
+    /// Contains nothing; a union with it changes nothing.
+    pub(super) const EMPTY: Self = Self { lo: [u16::MAX; 3], hi: [0; 3] };
+
+    pub(super) fn union(self, other: Self) -> Self {
+        let ([ax, ay, az], [bx, by, bz]) = (self.lo, other.lo);
+        let ([cx, cy, cz], [dx, dy, dz]) = (self.hi, other.hi);
+        Self { lo: [ax.min(bx), ay.min(by), az.min(bz)], hi: [cx.max(dx), cy.max(dy), cz.max(dz)] }
+    }
+
+    /// Half the area of its surface; 0 for the empty box.
+    pub(super) fn half_area(self) -> u64 {
+        let ([ax, ay, az], [bx, by, bz]) = (self.lo, self.hi);
+        let size = |lo: u16, hi: u16| u64::from(hi.saturating_sub(lo));
+        let (x, y, z) = (size(ax, bx), size(ay, by), size(az, bz));
+        x * y + y * z + z * x
+    }
+
+    /// Twice its middle.
+    pub(super) fn middle(self) -> [u32; 3] {
+        let ([ax, ay, az], [bx, by, bz]) = (self.lo, self.hi);
+        let sum = |lo: u16, hi: u16| u32::from(lo) + u32::from(hi);
+        [sum(ax, bx), sum(ay, by), sum(az, bz)]
+    }
+}
+
+/// The division of the room that a scene takes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units<R: Real> {
+    origin: Vec3<R>,
+    unit: R,
+    per_unit: R,
+    pad: R,
+}
+
+impl<R: Real> Units<R> {
+    pub(super) fn of<S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Self {
+        let root = lattice::root(scene, 32, 32);
+        let along = root.size().max_abs();
+        let count = R::from_i32(ALONG);
+        Self { origin: root.lo, unit: along / count, per_unit: count / along, pad: scene.pad() }
+    }
+
+    /// The box of a shape, padded and rounded outwards.
+    pub(super) fn bounds(&self, bounds: Aabb<R>) -> Bounds {
+        let bounds = bounds.grown(self.pad);
+        let units = |p: Vec3<R>| ((p - self.origin) * self.per_unit).to_array();
+        // Cutting off is rounding down for all that is not raised to 0. The unit that is added
+        // above rounds up.
+        let whole = |x: R| x.to_i32().clamp(0, ALONG) as u16;
+        Bounds { lo: units(bounds.lo).map(whole), hi: units(bounds.hi).map(|x| whole(x) + 1) }
+    }
+
+    pub(super) fn courses(&self, ray: &Ray<R>) -> [Course<R>; 3] {
+        // The steepest slope: across the scene a ray that is less inclined moves by less than a
+        // rounding error.
+        let steepest = R::ONE / (R::EPSILON * R::EPSILON);
+        Axis::ALL.map(|axis| {
+            let d = ray.direction().along(axis);
+            let inverse = (R::ONE / d).abs();
+            // Also what is not a number or infinite.
+            let inverse = if inverse < steepest { inverse } else { steepest };
+            let backwards = d < R::ZERO;
+            let inverse = if backwards { -inverse } else { inverse };
+            Course {
+                slope: self.unit * inverse,
+                offset: (self.origin.along(axis) - ray.origin().along(axis)) * inverse,
+                swap: if backwards { u32::MAX } else { 0 },
+            }
+        })
+    }
+}
+
+/// A ray's way along one axis, in units: it is at `x` at the parameter `slope * x + offset`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course<R> {
+    pub(super) slope: R,
+    pub(super) offset: R,
+    /// All bits set when the coordinate falls.
+    pub(super) swap: u32,
+}
