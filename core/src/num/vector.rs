@@ -83,6 +83,11 @@ pub trait Vector<R: Real<Vec3 = Self>>:
             Axis::Z => self.z(),
         }
     }
+    /// The component along an axis, of a vector in memory: one load.
+    fn pick(&self, axis: Axis) -> R {
+        let components: &[R; 3] = bytemuck::must_cast_ref(self);
+        components.get(axis.index()).copied().unwrap_or_default()
+    }
     /// Component by component.
     fn map(self, f: impl Fn(R) -> R) -> Self {
         Self::new(f(self.x()), f(self.y()), f(self.z()))

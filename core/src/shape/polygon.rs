@@ -50,13 +50,12 @@ impl<'a, R: Real> Polygon<'a, R> {
     }
 
     /// Whether the line of the ray passes through it.
-    fn surrounds(&self, ray: &Ray<R>, shear: &Shear<R>) -> bool {
+    fn surrounds(&self, shear: &Shear<R>) -> bool {
         let Some(last) = self.vertices.last() else { return false };
-        let seen = |corner: Vec3<R>| shear.apply(corner - ray.origin());
-        let mut a = seen(*last);
+        let mut a = shear.apply(last);
         let mut inside = false;
         for corner in self.vertices {
-            let b = seen(*corner);
+            let b = shear.apply(corner);
             // One end above, the other not: does the edge cross to the right of the ray? On the ray
             // is not to the right, so an edge belongs to what lies to its right.
             let (above, was_above) = (b.1 > R::ZERO, a.1 > R::ZERO);
@@ -119,7 +118,7 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
         // The outline comes first although `t` is cheaper: to trust `t` takes the box, and that is
         // as long a loop.
-        if !self.surrounds(ray, shear) {
+        if !self.surrounds(shear) {
             return None;
         }
         let first = *self.vertices.first()?;

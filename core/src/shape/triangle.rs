@@ -31,19 +31,13 @@ impl<R: Real> Triangle<R> {
         (b - a).cross(c - a)
     }
 
-    /// The weights of the corners at the place where the line of a ray meets the plane, with one
-    /// sign if that is inside, and the distances of the corners along the ray.
-    fn weights(&self, ray: &Ray<R>, shear: &Shear<R>) -> ([R::Wide; 3], [R; 3]) {
-        let [a, b, c] = self.corners.map(|corner| shear.apply(corner - ray.origin()));
-        ([edge::<R>(c, b), edge::<R>(a, c), edge::<R>(b, a)], [a.2, b.2, c.2])
-    }
-
     /// The weights of the corners at a hit, each from 0 to 1 and of sum 1: barycentric coordinates.
     ///
     /// For a ray that passes outside, of a place on the outline; the same for all corners when the
     /// ray sees the triangle edge-on or from too far away to tell.
     pub fn barycentric(&self, ray: &Ray<R>) -> [R; 3] {
-        let (weights, _) = self.weights(ray, &Shear::of(ray));
+        let shear = Shear::of(ray);
+        let weights = weights(self.corners.each_ref().map(|corner| shear.apply(corner)));
         let zero = R::Wide::default();
         let sum = |[u, v, w]: [R::Wide; 3]| u + v + w;
         // What is not a number is neither and counts as 0.
@@ -64,7 +58,9 @@ impl<R: Real> Triangle<R> {
 /// The shear that turns a ray into the third axis: what flat shapes want to know of a ray.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shear<R: Real> {
-    axes: (Axis, Axis, Axis),
+    axes: [Axis; 3],
+    /// The ray's origin along these axes.
+    origin: [R; 3],
     slope: (R, R),
     scale: R,
 }
@@ -76,27 +72,34 @@ impl<R: Real> Shear<R> {
         let major = d.major_axis();
         let (u, v) = major.others();
         let along = d.along(major);
+        let axes = [u, v, major];
         Self {
-            axes: (u, v, major),
+            axes,
+            origin: axes.map(|axis| ray.origin().along(axis)),
             slope: (d.along(u) / along, d.along(v) / along),
             scale: R::ONE / along,
         }
     }
 
-    /// Where a point, given relative to the ray's origin, lies across and along the ray.
-    pub(crate) fn apply(&self, p: Vec3<R>) -> (R, R, R) {
-        let z = p.along(self.axes.2);
-        (
-            p.along(self.axes.0) - self.slope.0 * z,
-            p.along(self.axes.1) - self.slope.1 * z,
-            self.scale * z,
-        )
+    /// Where a point lies across and along the ray.
+    #[inline]
+    pub(crate) fn apply(&self, point: &Vec3<R>) -> (R, R, R) {
+        let ([u, v, w], [x, y, z]) = (self.axes, self.origin);
+        let z = point.pick(w) - z;
+        let (x, y) = (point.pick(u) - x, point.pick(v) - y);
+        (x - self.slope.0 * z, y - self.slope.1 * z, self.scale * z)
     }
 }
 
 /// Twice the signed area of the triangle from the origin to two sheared points.
 pub(crate) fn edge<R: Real>(p: (R, R, R), q: (R, R, R)) -> R::Wide {
     p.0.times(q.1) - p.1.times(q.0)
+}
+
+/// The weights of the corners, sheared, where the line of the ray meets the plane; of one sign if
+/// that is inside.
+fn weights<R: Real>([a, b, c]: [(R, R, R); 3]) -> [R::Wide; 3] {
+    [edge::<R>(c, b), edge::<R>(a, c), edge::<R>(b, a)]
 }
 
 impl<R: Real> Shape<R> for Triangle<R> {
@@ -123,14 +126,19 @@ impl<R: Real> Shape<R> for Triangle<R> {
     }
 
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        let (weights, depths) = self.weights(ray, shear);
+        let [a, b, c] = self.corners.each_ref().map(|corner| shear.apply(corner));
+        let weights @ [u, v, w] = weights([a, b, c]);
         let zero = R::Wide::default();
-        let some_negative = weights.iter().any(|w| *w < zero);
-        let some_positive = weights.iter().any(|w| *w > zero);
+        let least = |a: R::Wide, b: R::Wide| if a < b { a } else { b };
+        let greatest = |a: R::Wide, b: R::Wide| if a > b { a } else { b };
+        // A number that is none passes here, and is refused as `t`.
+        let some_negative = least(least(u, v), w) < zero;
+        let some_positive = greatest(greatest(u, v), w) > zero;
         if some_negative == some_positive {
-            // Signs differ: outside. All zero: edge-on or not a number.
+            // Signs differ: outside. All zero: edge-on.
             return None;
         }
+        let depths = [a.2, b.2, c.2];
         let t = settle(ray, self.bounds(), R::mean(weights, depths))?;
         (t > min && t <= max).then_some(t)
     }
