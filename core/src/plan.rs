@@ -31,6 +31,20 @@ pub struct Wishes {
     pub max_objects: Option<usize>,
     /// An octree's limit of depth.
     pub max_level: Option<u32>,
+    /// How an octree's cells are stored.
+    pub store: Option<octree::Store>,
+    /// How an octree is walked.
+    pub walk: Option<octree::Walk>,
+}
+
+impl Wishes {
+    /// Whether a parameter is given that only an octree has.
+    fn asks_for_octree(&self) -> bool {
+        self.max_objects.is_some()
+            || self.max_level.is_some()
+            || self.store.is_some()
+            || self.walk.is_some()
+    }
 }
 
 /// Why a plan is what it is.
@@ -107,9 +121,7 @@ pub fn plan<R: Real, S: Shapes<R>>(
     let (structure, reason) = match wishes.structure {
         Some(structure) => (structure, Reason::Asked),
         None if wishes.resolution.is_some() => (Structure::Grid, Reason::Asked),
-        None if wishes.max_objects.is_some() || wishes.max_level.is_some() => {
-            (Structure::Octree, Reason::Asked)
-        }
+        None if wishes.asks_for_octree() => (Structure::Octree, Reason::Asked),
         None => choose(scene, shapes, budget, wishes)?,
     };
     let mailbox = match (wishes.mailbox, structure) {
@@ -144,9 +156,13 @@ fn fit<R: Real, S: Shapes<R>>(
             Some(resolution) => resolution,
             None => grid_for(scene, budget.saturating_sub(taken.kept))?,
         }),
-        Structure::Octree => accel::Kind::Octree(octree::Limits {
-            max_objects: wishes.max_objects.unwrap_or(MAX_OBJECTS),
-            max_level: wishes.max_level.unwrap_or(octree::DEEPEST),
+        Structure::Octree => accel::Kind::Octree(octree::Settings {
+            limits: octree::Limits {
+                max_objects: wishes.max_objects.unwrap_or(MAX_OBJECTS),
+                max_level: wishes.max_level.unwrap_or(octree::DEEPEST),
+            },
+            store: wishes.store.unwrap_or_default(),
+            walk: wishes.walk.unwrap_or_default(),
         }),
         Structure::Bvh => {
             let shapes = scene.shapes().bounded();
@@ -157,7 +173,7 @@ fn fit<R: Real, S: Shapes<R>>(
         accel::Kind::Naive | accel::Kind::Grid(_) | accel::Kind::Bvh(_) => {
             accel::Any::footprint(accel, scene)?
         }
-        accel::Kind::Octree(limits) => root_of(scene, limits)?,
+        accel::Kind::Octree(settings) => root_of(scene, settings)?,
     };
     let needed = taken.then(least).peak;
     if needed > budget {
@@ -178,7 +194,7 @@ fn choose<R: Real, S: Shapes<R>>(
     }
     let mailbox = wishes.mailbox.unwrap_or(mailbox::Kind::Off).footprint(shapes);
     let limits = octree::Limits { max_objects: 0, max_level: 0 };
-    let needed = mailbox.then(root_of(scene, limits)?).peak;
+    let needed = mailbox.then(root_of(scene, limits.into())?).peak;
     Ok(if needed > budget {
         (Structure::Naive, Reason::NoMemory { needed, available: budget })
     } else {
@@ -215,8 +231,8 @@ fn grid_for<R: Real, S: Shapes<R>>(
 /// An octree that is a single cell.
 fn root_of<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
-    limits: octree::Limits,
+    settings: octree::Settings,
 ) -> Result<Footprint, BuildError> {
-    let root = octree::Limits { max_level: 0, ..limits };
-    accel::Any::footprint(accel::Kind::Octree(root), scene)
+    let limits = octree::Limits { max_level: 0, ..settings.limits };
+    accel::Any::footprint(accel::Kind::Octree(octree::Settings { limits, ..settings }), scene)
 }

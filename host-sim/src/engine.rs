@@ -5,14 +5,14 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use kibiray::accel::mailbox::{self, AnyMailbox};
-use kibiray::accel::{Any, BuildError};
+use kibiray::accel::{Any, BuildError, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::Real;
 use kibiray::plan::{Plan, Structure, Wishes, plan};
 use kibiray::scene::{Scene, Shapes, Solids};
 use kibiray::trace::Tracer;
 
-use crate::options::{AccelKind, Common, MailboxKind};
+use crate::options::{AccelKind, Common, MailboxKind, Store, Walk};
 
 /// What traces on this host.
 pub type HostTracer<'a, R> = Tracer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>>;
@@ -64,6 +64,16 @@ pub fn wishes(options: &Common) -> Wishes {
         resolution: options.grid,
         max_objects: options.max_objects,
         max_level: options.max_level,
+        store: options.store.map(|store| match store {
+            Store::Links => octree::Store::Links,
+            Store::Hash => octree::Store::Hashed,
+        }),
+        walk: options.walk.map(|walk| match walk {
+            Walk::Restart => octree::Walk::Restart,
+            Walk::Neighbours => octree::Walk::Neighbours,
+            Walk::Descent => octree::Walk::Descent,
+            Walk::Segments => octree::Walk::Segments,
+        }),
     }
 }
 

@@ -167,6 +167,13 @@ pub struct Common {
     #[arg(long, value_name = "K")]
     #[arg(value_parser = clap::value_parser!(u32).range(0..=i64::from(octree::DEEPEST)))]
     pub max_level: Option<u32>,
+    /// Octree: how its cells are stored [default: links]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub store: Option<Store>,
+    /// Octree: how a ray gets from leaf to leaf [default: descent; restart for stats with
+    /// --max-objects or --max-level, as the published counts are made so]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub walk: Option<Walk>,
     /// When a shape belongs to a cell; `box`: its box touches the cell [default: box]
     #[arg(long, value_enum)]
     pub overlap: Option<Overlap>,
@@ -221,6 +228,30 @@ pub enum MailboxKind {
     Cache,
 }
 
+/// `--store`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Store {
+    #[value(help = "a divided cell names its children's place")]
+    Links,
+    #[value(help = "children are found by name, as Glassner's (1984)")]
+    Hash,
+}
+
+/// `--walk`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Walk {
+    #[value(help = "from the root every time, as Glassner's (1984)")]
+    Restart,
+    #[value(help = "from the smallest cell that contains both leaves")]
+    Neighbours,
+    #[value(help = "down the tree with a stack")]
+    Descent,
+    #[value(help = "cut into pieces first")]
+    Segments,
+}
+
 /// `--overlap`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[allow(missing_docs)]
@@ -237,7 +268,10 @@ impl Common {
     /// One line for the user.
     pub fn check(&self) -> Result<(), String> {
         let grid = self.grid.is_some();
-        let octree = self.max_objects.is_some() || self.max_level.is_some();
+        let octree = self.max_objects.is_some()
+            || self.max_level.is_some()
+            || self.store.is_some()
+            || self.walk.is_some();
         if self.num == Number::Fixed {
             return Err("--num fixed is not built yet: take f32 or f64".into());
         }
@@ -245,15 +279,26 @@ impl Common {
             return Err("--overlap exact is not built yet: take box".into());
         }
         if grid && octree {
-            return Err("--grid is for grids, --max-objects and --max-level are for octrees".into());
+            return Err("--grid is for grids, --max-objects, --max-level, --store and --walk are for octrees".into());
         }
         if grid && !matches!(self.accel, AccelKind::Auto | AccelKind::Grid) {
             return Err("--grid is only for --accel grid".into());
         }
         if octree && !matches!(self.accel, AccelKind::Auto | AccelKind::Octree) {
-            return Err("--max-objects and --max-level are only for --accel octree".into());
+            return Err(
+                "--max-objects, --max-level, --store and --walk are only for --accel octree".into(),
+            );
         }
         Ok(())
+    }
+
+    /// With the parameters of a structure fixed, what is not given is as in the published counts.
+    #[must_use]
+    pub fn as_published(mut self) -> Self {
+        if self.max_objects.is_some() || self.max_level.is_some() {
+            self.walk.get_or_insert(Walk::Restart);
+        }
+        self
     }
 
     /// Whether the report goes to standard output.

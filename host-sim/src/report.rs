@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use kibiray::accel::octree::StoppedBy;
+use kibiray::accel::octree::{AnyOctree, StoppedBy, Storage};
 use kibiray::accel::{Any, Bvh, Grid, Id, Octree};
 use kibiray::memory::Arena;
 use kibiray::num::Real;
@@ -105,10 +105,15 @@ impl AccelReport {
             Any::SmallGrid(grid) => Self::grid(grid),
             Any::Grid(grid) => Self::grid(grid),
             Any::LargeGrid(grid) => Self::grid(grid),
-            Any::Octree(octree) => Self::octree(octree),
-            Any::LargeOctree(octree) => Self::octree(octree),
             Any::Bvh(bvh) => Self::bvh(bvh),
             Any::LargeBvh(bvh) => Self::bvh(bvh),
+            Any::Octree(octree) => match octree {
+                AnyOctree::Small(octree, _) => Self::octree(octree),
+                AnyOctree::Medium(octree, _) => Self::octree(octree),
+                AnyOctree::Large(octree, _) => Self::octree(octree),
+                AnyOctree::Hashed(octree, _) => Self::octree(octree),
+                AnyOctree::LargeHashed(octree, _) => Self::octree(octree),
+            },
         };
         Self { mailbox, ..report }
     }
@@ -136,7 +141,9 @@ impl AccelReport {
         }
     }
 
-    fn octree<R: Real, I: Id + Eq + std::hash::Hash>(octree: &Octree<'_, R, I>) -> Self {
+    fn octree<'m, R: Real, I: Id + Eq + std::hash::Hash, C: Storage<'m>>(
+        octree: &Octree<'m, R, I, C>,
+    ) -> Self {
         let (leaves, empty, references, distinct) = lists(octree.leaves());
         Self {
             kind: "octree",

@@ -119,11 +119,11 @@ fn what_is_not_built_yet_says_so() {
         ("stats scene.nff --accel octree --grid 1x1x1", "--grid is only for --accel grid"),
         (
             "stats scene.nff --accel grid --max-level 3",
-            "--max-objects and --max-level are only for --accel octree",
+            "--max-objects, --max-level, --store and --walk are only for --accel octree",
         ),
         (
             "stats scene.nff --grid 1x1x1 --max-objects 3",
-            "--grid is for grids, --max-objects and --max-level are for octrees",
+            "--grid is for grids, --max-objects, --max-level, --store and --walk are for octrees",
         ),
         (
             "trace scene.nff --rays in.csv --hits - --json -",

@@ -136,7 +136,8 @@ pub type Setup = (Kind, mailbox::Kind, usize);
 /// Structures of all sorts with all mailboxes, in ample and in scarce memory.
 pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     use mailbox::Kind::{Cache, Off, Stamps};
-    let octree = |max_objects, max_level| Kind::Octree(octree::Limits { max_objects, max_level });
+    let limits = |max_objects, max_level| octree::Limits { max_objects, max_level };
+    let octree = |max_objects, max_level| Kind::Octree(limits(max_objects, max_level).into());
     let cells = |n| Kind::Grid(grid::resolution_for(scene, scene.shapes().count() * n));
     let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (Kind::Grid([1; 3]), Off, UNLIMITED)];
     // From the fewest nodes to one shape a leaf, and as a budget comes out.
@@ -145,6 +146,17 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         setups.push((Kind::Bvh(nodes), Off, UNLIMITED));
     }
     setups.push((Kind::Bvh(bvh::nodes_within(shapes, 16 << 10)), Cache, 16 << 10));
+    use octree::{Store::Hashed, Store::Links, Walk};
+    for (store, walk) in [
+        (Hashed, Walk::Restart),
+        (Hashed, Walk::Descent),
+        (Links, Walk::Restart),
+        (Links, Walk::Neighbours),
+        (Links, Walk::Segments),
+    ] {
+        let settings = octree::Settings { limits: limits(3, 7), store, walk };
+        setups.push((Kind::Octree(settings), Off, UNLIMITED));
+    }
     for mailbox in [Off, Stamps, Cache] {
         for kind in [cells(3), Kind::Grid([16; 3]), Kind::Grid([7, 1, 30]), octree(1, 6)] {
             setups.push((kind, mailbox, UNLIMITED));

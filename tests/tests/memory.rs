@@ -1,6 +1,7 @@
 //! Guards promises 1 and 2: every byte comes out of the arena; too little gives an error with the
 //! right number of bytes; how much a build takes is known beforehand.
 
+use kibiray::accel::octree::AnyOctree;
 use kibiray::accel::{Accel, Any, BuildError, Hit, Kind, mailbox, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::Real;
@@ -106,8 +107,12 @@ fn the_footprint_is_the_high_water_mark() {
         let tables = Tables::<f32>::new(&load(name).unwrap()).unwrap();
         let polygons = tables.polygons();
         let scene = tables.scene(&polygons).unwrap();
-        let octree =
-            |max_objects, max_level| Kind::Octree(octree::Limits { max_objects, max_level });
+        let stored = |max_objects, max_level, store| {
+            let settings = octree::Limits { max_objects, max_level }.into();
+            Kind::Octree(octree::Settings { store, ..settings })
+        };
+        let octree = |objects, level| stored(objects, level, octree::Store::Links);
+        let hashed = |objects, level| stored(objects, level, octree::Store::Hashed);
         let kinds = [
             Kind::Naive,
             Kind::Grid([1, 1, 1]),
@@ -121,6 +126,10 @@ fn the_footprint_is_the_high_water_mark() {
             Kind::Bvh(0),
             Kind::Bvh(70),
             Kind::Bvh(usize::MAX),
+            // More list entries than words of 16 bits number.
+            octree(1, 6),
+            hashed(1, 4),
+            hashed(8, 5),
         ];
         for kind in kinds {
             let footprint = Any::footprint(kind, &scene).unwrap();
@@ -132,9 +141,9 @@ fn the_footprint_is_the_high_water_mark() {
             let mut arena = Arena::new(memory.bytes(footprint.peak));
             let built = Any::build(kind, &scene, &mut arena).unwrap();
             assert_eq!(arena.used(), footprint.kept, "{name} {kind:?}: exact arena");
-            if let Any::Octree(octree) = built {
-                assert_ne!(octree.stopped_by(), octree::StoppedBy::Memory, "{name} {kind:?}");
-            }
+            let Any::Octree(octree) = built else { continue };
+            let stopped_by = octree.stopped_by();
+            assert_ne!(stopped_by, octree::StoppedBy::Memory, "{name} {kind:?}");
         }
     }
 }
@@ -257,7 +266,9 @@ fn an_octree_of_a_mesh_stays_in_proportion_to_it() {
     for budget in [8 << 10, 64 << 10, 1 << 24] {
         let plan = plan(&scene, budget, &Wishes::default()).unwrap();
         let mut arena = Arena::new(memory.bytes(budget));
-        let Any::Octree(octree) = Any::build(plan.accel, &scene, &mut arena).unwrap() else {
+        let Any::Octree(AnyOctree::Small(octree, _)) =
+            Any::build(plan.accel, &scene, &mut arena).unwrap()
+        else {
             panic!("{plan:?}")
         };
         let (leaves, cells) = (octree.leaves().count(), octree.interior_nodes());

@@ -1,6 +1,6 @@
 //! A structure whose kind is chosen while the program runs.
 
-use super::octree::{Limits, Octree};
+use super::octree::{self, AnyOctree};
 use super::{Accel, BuildError, Bvh, Grid, Id, Naive, Visitor, bvh, grid};
 use crate::geom::Ray;
 use crate::memory::{Arena, Footprint};
@@ -14,8 +14,8 @@ pub enum Kind {
     Naive,
     /// [`Grid`] with so many cells along each axis.
     Grid([u32; 3]),
-    /// [`Octree`], within the memory that is free.
-    Octree(Limits),
+    /// An [`Octree`](super::Octree), within the memory that is free.
+    Octree(octree::Settings),
     /// [`Bvh`] of so many nodes.
     Bvh(usize),
 }
@@ -32,10 +32,8 @@ pub enum Any<'m, R: Real> {
     Grid(Grid<'m, R, u16, u32>),
     /// A grid with more shapes.
     LargeGrid(Grid<'m, R, u32, u32>),
-    /// An octree with up to 65,535 shapes.
-    Octree(Octree<'m, R, u16>),
-    /// An octree with more shapes.
-    LargeOctree(Octree<'m, R, u32>),
+    /// An octree.
+    Octree(AnyOctree<'m, R>),
     /// A hierarchy of up to 65,535 shapes.
     Bvh(Bvh<'m, R, u16>),
     /// A hierarchy of more shapes.
@@ -77,10 +75,7 @@ impl<'m, R: Real> Any<'m, R> {
                 Width::Medium => Self::Grid(Grid::build(scene, n, arena)?),
                 Width::Large => Self::LargeGrid(Grid::build(scene, n, arena)?),
             },
-            Kind::Octree(limits) if shapes <= <u16 as Id>::MAX => {
-                Self::Octree(Octree::build(scene, limits, arena)?)
-            }
-            Kind::Octree(limits) => Self::LargeOctree(Octree::build(scene, limits, arena)?),
+            Kind::Octree(settings) => Self::Octree(AnyOctree::build(scene, settings, arena)?),
             Kind::Bvh(nodes) if shapes <= <u16 as Id>::MAX => {
                 Self::Bvh(Bvh::build(scene, nodes, arena)?)
             }
@@ -108,10 +103,7 @@ impl<'m, R: Real> Any<'m, R> {
                     Width::Large => size.footprint::<u32, u32>(),
                 }
             }
-            Kind::Octree(limits) if shapes <= <u16 as Id>::MAX => {
-                Octree::<R, u16>::footprint(scene, limits)?
-            }
-            Kind::Octree(limits) => Octree::<R, u32>::footprint(scene, limits)?,
+            Kind::Octree(settings) => AnyOctree::footprint(scene, settings)?,
             Kind::Bvh(nodes) if shapes <= <u16 as Id>::MAX => bvh::footprint::<u16>(shapes, nodes),
             Kind::Bvh(nodes) => bvh::footprint::<u32>(shapes, nodes),
         })
@@ -126,7 +118,6 @@ impl<R: Real> Accel<R> for Any<'_, R> {
             Self::Grid(grid) => grid.walk(ray, visitor),
             Self::LargeGrid(grid) => grid.walk(ray, visitor),
             Self::Octree(octree) => octree.walk(ray, visitor),
-            Self::LargeOctree(octree) => octree.walk(ray, visitor),
             Self::Bvh(bvh) => bvh.walk(ray, visitor),
             Self::LargeBvh(bvh) => bvh.walk(ray, visitor),
         }

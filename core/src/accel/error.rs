@@ -29,7 +29,11 @@ pub enum BuildError {
 
 impl BuildError {
     pub(crate) fn unless_fits<I: Id>(what: &'static str, count: usize) -> Result<(), Self> {
-        if count <= I::MAX { Ok(()) } else { Err(Self::TooMany { what, count, limit: I::MAX }) }
+        Self::unless_above(what, count, I::MAX)
+    }
+
+    pub(crate) fn unless_above(what: &'static str, count: usize, limit: usize) -> Result<(), Self> {
+        if count <= limit { Ok(()) } else { Err(Self::TooMany { what, count, limit }) }
     }
 }
 

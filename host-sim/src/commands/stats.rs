@@ -14,6 +14,7 @@ use crate::report::RaysReport;
 const CORNERS: i32 = 513;
 
 pub(super) fn run(options: &Stats) -> anyhow::Result<()> {
+    let options = &Stats { common: options.common.clone().as_published(), ..options.clone() };
     let loaded = stage::open(&options.scene, &options.common)?;
     let ram = options.common.ram.unwrap_or(DEFAULT_RAM);
     match options.common.num {

@@ -1,16 +1,18 @@
 //! Growing an octree breadth-first into a memory budget.
 //!
-//! Candidates for division are taken first in, first out. Cells are stored in the order in which
-//! they come to be, so the queue needs no memory: it is a mark that moves over them. A division
-//! happens whole or not at all; once one does not fit, all further candidates stay leaves. The list
-//! of a divided cell is given up: at the end of every level, and whenever memory runs out, the
-//! remaining lists close up.
+//! Cells are divided level by level, within a level in the order of their names: first in, first
+//! out. A division happens whole or not at all; once one does not fit, all further candidates stay
+//! leaves. The list of a divided cell is given up: at the end of every level, and whenever memory
+//! runs out, the remaining lists close up.
 
-use super::code::{Code, DEEPEST};
-use super::{DIVIDED, Family, Octree, Word, home, slots_for};
+use super::code::DEEPEST;
+use super::cursor::{Cursor, Slot};
+use super::footprint::bytes;
+use super::storage::{Content, Storage, most};
+use super::{Octree, list_at};
 use crate::accel::lattice::{self, Lattice};
 use crate::accel::{BuildError, Id};
-use crate::memory::{Arena, Ends, Footprint, ends_bytes};
+use crate::memory::{Arena, Ends, Footprint};
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
 
@@ -30,70 +32,11 @@ pub enum StoppedBy {
     Done,
     /// Leaves with more shapes are at the limit of depth.
     Level,
-    /// The next division did not fit the memory.
+    /// The next division did not fit the memory, or its numbers not the words.
     Memory,
 }
 
-/// The octree's numbers, counted without memory.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Level {
-    /// Cells that are divided.
-    divided: usize,
-    /// Entries of the lists of divided cells, lengths included.
-    passing: usize,
-    /// Entries of the lists of leaves, lengths included.
-    staying: usize,
-}
-
-impl<R: Real, I: Id> Octree<'_, R, I> {
-    /// Bytes that building without shortage takes: with a free arena of so many the octree is
-    /// divided up to its limits, and the high-water mark is exactly that.
-    ///
-    /// Needs no memory, therefore looks at every shape for every cell: time in proportion to the
-    /// number of cells times the number of shapes.
-    ///
-    /// # Errors
-    /// [`BuildError::TooMany`], [`BuildError::TooDeep`].
-    pub fn footprint<S: Shapes<R>>(
-        scene: &Scene<'_, R, S>,
-        limits: Limits,
-    ) -> Result<Footprint, BuildError> {
-        let deepest = check::<R, S, I>(scene, limits)?;
-        let lattice = lattice_of(scene, deepest);
-        let mut levels = [Level::default(); DEEPEST as usize + 1];
-        let mut next = Some(Code::ROOT);
-        while let Some(code) = next {
-            let (base, edge) = code.place(deepest);
-            let shapes = 0..scene.shapes().bounded();
-            let inside = |id: &usize| touches(&lattice, scene, *id, base, edge) != 0;
-            let count = shapes.filter(inside).count();
-            let entries = count + usize::from(count > 0);
-            let divide = count > limits.max_objects && code.level() < deepest;
-            if let Some(level) = levels.get_mut(code.level() as usize) {
-                level.divided += usize::from(divide);
-                *(if divide { &mut level.passing } else { &mut level.staying }) += entries;
-            }
-            next = if divide { Some(code.child(0)) } else { code.next() };
-        }
-        // While a level is divided, the lists of all leaves above, its own lists and those of the
-        // next level are there.
-        let (mut families, mut above, mut peak) = (0, 0, 0);
-        for (level, below) in levels.iter().zip(levels.iter().skip(1).chain([&Level::default()])) {
-            families += level.divided;
-            let lists = above + level.passing + level.staying + below.passing + below.staying;
-            peak = peak.max(bytes::<I>(families, lists));
-            above += level.staying;
-        }
-        Ok(Footprint { kept: bytes::<I>(families, above), peak })
-    }
-}
-
-/// Bytes of so many families with their table, and so many list entries.
-fn bytes<I>(families: usize, entries: usize) -> usize {
-    ends_bytes::<Family, I>(families, entries, slots_for(families) * size_of::<u32>())
-}
-
-fn check<R: Real, S: Shapes<R>, I: Id>(
+pub(super) fn check<R: Real, S: Shapes<R>, I: Id>(
     scene: &Scene<'_, R, S>,
     limits: Limits,
 ) -> Result<u32, BuildError> {
@@ -105,12 +48,15 @@ fn check<R: Real, S: Shapes<R>, I: Id>(
     Ok(limits.max_level)
 }
 
-fn lattice_of<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, deepest: u32) -> Lattice<R> {
+pub(super) fn lattice_of<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    deepest: u32,
+) -> Lattice<R> {
     Lattice::new(lattice::root(scene, 32, 32), [1 << deepest; 3], scene.pad())
 }
 
 /// Which children of a cell a shape touches, as bits 0 to 7; 0 when it does not touch the cell.
-fn touches<R: Real, S: Shapes<R>>(
+pub(super) fn touches<R: Real, S: Shapes<R>>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
     id: usize,
@@ -138,9 +84,9 @@ fn touches<R: Real, S: Shapes<R>>(
         & spread(z, 0b0000_1111, 0b1111_0000)
 }
 
-impl<'m, R: Real, I: Id> Octree<'m, R, I> {
-    /// Builds an octree over the bounded shapes of a scene, as fine as the limits and the free
-    /// bytes of the arena allow.
+impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
+    /// Builds an octree over the bounded shapes of a scene, as fine as the limits, the free bytes
+    /// of the arena and the numbers that fit its words allow.
     ///
     /// # Errors
     /// [`BuildError::Memory`] when not even a single cell that lists every shape fits;
@@ -150,77 +96,68 @@ impl<'m, R: Real, I: Id> Octree<'m, R, I> {
         limits: Limits,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
+        Self::build_in_words(scene, limits, arena, true)
+    }
+
+    /// As [`Octree::build`]. Unless that is allowed, the words may not be what stops the division:
+    /// then nothing is taken.
+    ///
+    /// # Errors
+    /// As [`Octree::build`], and [`BuildError::TooMany`] when the words are too narrow.
+    pub(crate) fn build_in_words<S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        limits: Limits,
+        arena: &mut Arena<'m>,
+        may_stop: bool,
+    ) -> Result<Self, BuildError> {
         let deepest = check::<R, S, I>(scene, limits)?;
         let lattice = lattice_of(scene, deepest);
         let shapes = scene.shapes().bounded();
         let entries = shapes + usize::from(shapes > 0);
-        let least = bytes::<I>(0, entries);
+        let fits =
+            |count| BuildError::unless_above("octree list entries", count, most::<C::Word>());
+        fits(entries)?;
+        let least = bytes::<C, I>(0, entries);
         arena.require(Footprint { kept: least, peak: least })?;
 
-        let ends = arena.scratch::<Family, I>();
-        let mut growing = Growing { lattice, scene, limits, deepest, root: 0, ends };
+        let ends = arena.scratch::<C::Block, I>();
+        let (root, max_level) = (Content::List(0), 0);
+        let mut growing =
+            Growing::<R, S, I, C> { lattice, scene, limits, deepest, root, max_level, ends };
         growing.plant(shapes);
-        let stopped_by = growing.grow();
+        let stopped_by = match growing.grow() {
+            Ok(stopped_by) => stopped_by,
+            Err(Refusal::Words(count)) if !may_stop => fits(count).map(|()| StoppedBy::Memory)?,
+            Err(_) => StoppedBy::Memory,
+        };
+        let max_level = growing.max_level;
         let (root, families, entries) = growing.close_up();
-
-        let families: &mut [Family] = arena.keep("octree cells", families)?;
-        let table: &mut [u32] = arena.keep("octree table", slots_for(families.len()))?;
+        let cells = C::keep(root.word::<C::Word>(), families, arena)?;
         let lists: &mut [I] = arena.keep("octree lists", entries)?;
-        fill(table, families);
-        Ok(Self { lattice, deepest, stopped_by, root, families, table, lists })
+        Ok(Self { lattice, deepest, max_level, stopped_by, cells, lists })
     }
 }
 
-/// Enters all families into the table.
-fn fill(table: &mut [u32], families: &[Family]) {
-    table.fill(0);
-    let slots = table.len();
-    for (number, family) in families.iter().enumerate() {
-        let mut slot = home(Code(family[0]), slots);
-        for _ in 0..slots {
-            match table.get_mut(slot) {
-                Some(free) if *free == 0 => {
-                    *free = number as u32 + 1;
-                    break;
-                }
-                _ => slot = if slot + 1 == slots { 0 } else { slot + 1 },
-            }
-        }
-    }
+/// Why a cell is not divided.
+enum Refusal {
+    Memory,
+    /// The words would have to hold so much.
+    Words(usize),
 }
 
-/// A cell while the tree grows.
-#[derive(Clone, Copy)]
-struct Place {
-    /// Number of the family plus 1; 0 for the root, which is in none.
-    family: usize,
-    octant: u32,
-}
-
-impl Place {
-    const ROOT: Self = Self { family: 0, octant: 0 };
-
-    /// The cell that came to be after this one.
-    fn next(self) -> Self {
-        if self.family > 0 && self.octant < 7 {
-            Self { octant: self.octant + 1, ..self }
-        } else {
-            Self { family: self.family + 1, octant: 0 }
-        }
-    }
-}
-
-struct Growing<'g, 's, R: Real, S, I> {
+struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
     lattice: Lattice<R>,
     scene: &'g Scene<'s, R, S>,
     limits: Limits,
     deepest: u32,
-    root: Word,
+    root: Content,
+    /// Level of the deepest leaf.
+    max_level: u32,
     /// Families at the front, lists at the back, newest nearest to the middle.
-    ends: Ends<'g, Family, I>,
+    ends: Ends<'g, C::Block, I>,
 }
 
-impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
+impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S, I, C> {
     /// The root: one cell that lists every shape.
     fn plant(&mut self, shapes: usize) {
         if shapes > 0 && self.ends.grow(0, shapes + 1, 0) {
@@ -231,110 +168,118 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
                     *place = I::new(id);
                 }
             }
-            self.root = shapes as Word + 1;
+            self.root = Content::List(shapes + 1);
         }
     }
 
-    /// Divides candidates, first in first out, until done or out of memory.
-    fn grow(&mut self) -> StoppedBy {
+    /// Divides candidates, first in first out, until done or something refuses.
+    fn grow(&mut self) -> Result<StoppedBy, Refusal> {
         let mut stopped_by = StoppedBy::Done;
-        let mut place = Place::ROOT;
-        let mut level = 0;
-        while let Some((code, _)) = self.cell(place) {
-            if code.level() > level {
-                level = code.level();
-                self.close_gaps();
-            }
-            if self.count(place) > self.limits.max_objects {
-                if code.level() >= self.deepest {
-                    stopped_by = StoppedBy::Level;
-                } else if !self.divide(place, code) {
-                    self.close_gaps();
-                    if !self.divide(place, code) {
-                        return StoppedBy::Memory;
+        for level in 0..=self.deepest {
+            self.close_gaps();
+            let mut cursor = Cursor::ROOT;
+            loop {
+                match self.content(cursor.slot()) {
+                    Some(Content::Family(family)) if cursor.level() < level => {
+                        cursor.down(family);
+                        continue;
                     }
+                    Some(Content::List(place)) if cursor.level() == level => {
+                        if self.count(place) <= self.limits.max_objects {
+                            // Few enough.
+                        } else if level == self.deepest {
+                            stopped_by = StoppedBy::Level;
+                        } else if let Err(refusal) = self.divide(&cursor) {
+                            let Refusal::Memory = refusal else { return Err(refusal) };
+                            self.close_gaps();
+                            self.divide(&cursor)?;
+                        }
+                    }
+                    _ => {}
+                }
+                if !cursor.next() {
+                    break;
                 }
             }
-            place = place.next();
+            if self.max_level < level {
+                break;
+            }
         }
-        stopped_by
+        Ok(stopped_by)
     }
 
-    /// The name and the word of a cell.
-    fn cell(&mut self, place: Place) -> Option<(Code, Word)> {
-        let Some(family) = place.family.checked_sub(1) else {
-            return Some((Code::ROOT, self.root));
+    /// What a cell is; `None` beyond the last.
+    fn content(&mut self, slot: Slot) -> Option<Content> {
+        let Slot::Child(family, octant) = slot else { return Some(self.root) };
+        let (families, _) = self.ends.both();
+        C::words(families.get(family)?).get(octant).copied().map(Content::of)
+    }
+
+    fn set(&mut self, slot: Slot, content: Content) {
+        let Slot::Child(family, octant) = slot else {
+            self.root = content;
+            return;
         };
         let (families, _) = self.ends.both();
-        let family = families.get(family)?;
-        let word = family.get(1 + place.octant as usize)?;
-        Some((Code(family[0]).child(place.octant), *word))
-    }
-
-    fn set(&mut self, place: Place, word: Word) {
-        match place.family.checked_sub(1) {
-            None => self.root = word,
-            Some(family) => {
-                let (families, _) = self.ends.both();
-                let words = families.get_mut(family);
-                if let Some(old) = words.and_then(|w| w.get_mut(1 + place.octant as usize)) {
-                    *old = word;
-                }
-            }
+        let words = families.get_mut(family).map(C::words_mut);
+        if let Some(word) = words.and_then(|words| words.get_mut(octant)) {
+            *word = content.word();
         }
     }
 
-    /// How many shapes a leaf lists.
-    fn count(&mut self, place: Place) -> usize {
-        let word = self.cell(place).map_or(0, |(_, word)| word);
+    /// How many shapes a list has.
+    fn count(&mut self, place: usize) -> usize {
         let (_, lists) = self.ends.both();
-        list_of(lists, word).map_or(0, |list| list.len())
+        list_at(lists, place).len()
     }
 
-    /// Divides a leaf; false, and nothing changed, when that does not fit.
-    fn divide(&mut self, place: Place, code: Code) -> bool {
-        let Some((_, word)) = self.cell(place) else { return false };
-        let (base, edge) = code.place(self.deepest);
+    /// Divides a leaf; changes nothing when that does not fit.
+    fn divide(&mut self, cursor: &Cursor) -> Result<(), Refusal> {
+        let slot = cursor.slot();
+        let Some(Content::List(place)) = self.content(slot) else { return Ok(()) };
+        let (base, edge) = cursor.code().place(self.deepest);
         let (lattice, scene) = (self.lattice, self.scene);
         let octants = |id: &I| touches(&lattice, scene, id.get(), base, edge);
 
         let mut counts = [0_usize; 8];
         let (_, lists) = self.ends.both();
-        for id in list_of(lists, word).unwrap_or_default().iter() {
+        for id in list_at(lists, place) {
             let octants = octants(id);
             for (octant, count) in counts.iter_mut().enumerate() {
                 *count += (octants >> octant & 1) as usize;
             }
         }
         let entries: usize = counts.iter().map(|count| count + usize::from(*count > 0)).sum();
-        let families = self.ends.front_len() + 1;
-        let table = slots_for(families) * size_of::<u32>();
-        let old = self.ends.back_len();
-        if old + entries >= DIVIDED as usize || !self.ends.grow(1, entries, table) {
-            return false;
+        let (number, old) = (self.ends.front_len(), self.ends.back_len());
+        let greatest = number.max(old + entries);
+        if greatest > most::<C::Word>() {
+            return Err(Refusal::Words(greatest));
+        }
+        if !self.ends.grow(1, entries, C::index_bytes(number + 1)) {
+            return Err(Refusal::Memory);
         }
 
         let (families, lists) = self.ends.both();
         let (new, old_lists) = lists.split_at_mut_checked(entries).unwrap_or_default();
-        let list = list_of(old_lists, word).unwrap_or_default();
-        let mut family = [0; 9];
-        family[0] = code.0;
+        let Some(family) = families.last_mut() else { return Ok(()) };
+        C::name(family, cursor.code().0);
         // The first child's list is the oldest of the new ones: it lies last.
         let mut end = old;
         let mut next = [0; 8];
-        for ((count, child), next) in counts.iter().zip(family.iter_mut().skip(1)).zip(&mut next) {
+        for ((count, child), next) in counts.iter().zip(C::words_mut(family)).zip(&mut next) {
+            *child = Content::List(0).word();
             if *count == 0 {
                 continue;
             }
             end += count + 1;
-            *child = end as Word;
+            *child = Content::List(end).word();
             let start = new.len().saturating_sub(end - old);
             if let Some(length) = new.get_mut(start) {
                 *length = I::new(*count);
             }
             *next = start + 1;
         }
-        for id in list {
+        for id in list_at(old_lists, place) {
             let octants = octants(id);
             for (octant, next) in next.iter_mut().enumerate() {
                 if octants >> octant & 1 != 0 {
@@ -345,22 +290,22 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
                 }
             }
         }
-        if let Some(last) = families.last_mut() {
-            *last = family;
-        }
-        self.set(place, DIVIDED);
-        true
+        self.max_level = self.max_level.max(cursor.level() + 1);
+        self.set(slot, Content::Family(number));
+        Ok(())
     }
 
     /// Moves the lists that are still needed together, oldest first, and gives up the rest.
     fn close_gaps(&mut self) {
         let mut end = 0;
-        let mut place = Place::ROOT;
-        while let Some((_, word)) = self.cell(place) {
-            if word != DIVIDED && word > 0 {
+        let mut slot = Slot::Root;
+        while let Some(content) = self.content(slot) {
+            if let Content::List(place) = content
+                && place > 0
+            {
                 let entries = self.count(place) + 1;
                 let (_, lists) = self.ends.both();
-                let from = lists.len().saturating_sub(word as usize);
+                let from = lists.len().saturating_sub(place);
                 end += entries;
                 // Lists only ever move towards the end.
                 let behind = end.saturating_sub(entries);
@@ -370,9 +315,9 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
                 {
                     span.copy_within(..entries, to);
                 }
-                self.set(place, end as Word);
+                self.set(slot, Content::List(end));
             }
-            place = place.next();
+            slot = slot.next();
         }
         let unused = self.ends.back_len().saturating_sub(end);
         self.ends.shrink_back(unused);
@@ -380,17 +325,10 @@ impl<R: Real, S: Shapes<R>, I: Id> Growing<'_, '_, R, S, I> {
 
     /// Brings everything to where it stays. Gives the root, the number of families and that of list
     /// entries.
-    fn close_up(mut self) -> (Word, usize, usize) {
+    fn close_up(mut self) -> (Content, usize, usize) {
         self.close_gaps();
         let (families, entries) = (self.ends.front_len(), self.ends.back_len());
-        self.ends.close_up(slots_for(families) * size_of::<u32>());
+        self.ends.close_up(C::index_bytes(families));
         (self.root, families, entries)
     }
-}
-
-/// The list of a word.
-fn list_of<I: Id>(lists: &[I], word: Word) -> Option<&[I]> {
-    let start = lists.len().checked_sub(word as usize)?;
-    let (length, ids) = lists.get(start..)?.split_first()?;
-    ids.get(..length.get())
 }

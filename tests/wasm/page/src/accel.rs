@@ -21,7 +21,9 @@ impl<'m> Small<'m> {
         Ok(match kind {
             accel::Kind::Naive => Self::Naive(Naive::new(scene)),
             accel::Kind::Grid(cells) => Self::Grid(Grid::build(scene, cells, arena)?),
-            accel::Kind::Octree(limits) => Self::Octree(Octree::build(scene, limits, arena)?),
+            accel::Kind::Octree(settings) => {
+                Self::Octree(Octree::build(scene, settings.limits, arena)?)
+            }
         })
     }
 }

@@ -1,0 +1,73 @@
+//! How many bytes an octree takes, counted without memory.
+
+use super::Octree;
+use super::build::{Limits, check, lattice_of, touches};
+use super::code::{Code, DEEPEST};
+use super::storage::{Storage, most};
+use crate::accel::{BuildError, Id};
+use crate::memory::{Footprint, ends_bytes};
+use crate::num::Real;
+use crate::scene::{Scene, Shapes};
+
+/// The numbers of one level.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Level {
+    /// Cells that are divided.
+    divided: usize,
+    /// Entries of the lists of divided cells, lengths included.
+    passing: usize,
+    /// Entries of the lists of leaves, lengths included.
+    staying: usize,
+}
+
+/// Bytes of so many families with what finds them, and so many list entries.
+pub(super) fn bytes<'m, C: Storage<'m>, I>(families: usize, entries: usize) -> usize {
+    ends_bytes::<C::Block, I>(families, entries, C::index_bytes(families))
+}
+
+impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
+    /// Bytes that building without shortage takes: with a free arena of so many the octree is
+    /// divided up to its limits, and the high-water mark is exactly that.
+    ///
+    /// Needs no memory, therefore looks at every shape for every cell: time in proportion to the
+    /// number of cells times the number of shapes.
+    ///
+    /// # Errors
+    /// [`BuildError::TooMany`], also when the octree's words are too narrow for all of it;
+    /// [`BuildError::TooDeep`].
+    pub fn footprint<S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        limits: Limits,
+    ) -> Result<Footprint, BuildError> {
+        let deepest = check::<R, S, I>(scene, limits)?;
+        let lattice = lattice_of(scene, deepest);
+        let mut levels = [Level::default(); DEEPEST as usize + 1];
+        let mut next = Some(Code::ROOT);
+        while let Some(code) = next {
+            let (base, edge) = code.place(deepest);
+            let shapes = 0..scene.shapes().bounded();
+            let inside = |id: &usize| touches(&lattice, scene, *id, base, edge) != 0;
+            let count = shapes.filter(inside).count();
+            let entries = count + usize::from(count > 0);
+            let divide = count > limits.max_objects && code.level() < deepest;
+            if let Some(level) = levels.get_mut(code.level() as usize) {
+                level.divided += usize::from(divide);
+                *(if divide { &mut level.passing } else { &mut level.staying }) += entries;
+            }
+            next = if divide { Some(code.child(0)) } else { code.next() };
+        }
+        // While a level is divided, the lists of all leaves above, its own lists and those of the
+        // next level are there.
+        let (mut families, mut above, mut peak, mut most_entries) = (0, 0, 0, 0);
+        for (level, below) in levels.iter().zip(levels.iter().skip(1).chain([&Level::default()])) {
+            families += level.divided;
+            let lists = above + level.passing + level.staying + below.passing + below.staying;
+            most_entries = most_entries.max(lists);
+            peak = peak.max(bytes::<C, I>(families, lists));
+            above += level.staying;
+        }
+        let greatest = most_entries.max(families.saturating_sub(1));
+        BuildError::unless_above("octree list entries", greatest, most::<C::Word>())?;
+        Ok(Footprint { kept: bytes::<C, I>(families, above), peak })
+    }
+}
