@@ -10,9 +10,9 @@ use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::Real;
 use kibiray::plan::{Plan, Structure, Wishes, plan};
 use kibiray::scene::{Scene, Shapes, Solids};
-use kibiray::trace::Tracer;
+use kibiray::trace::{Adaptive, MOST_LEVELS, Sampling, Tracer};
 
-use crate::options::{AccelKind, Common, MailboxKind, Store, Walk};
+use crate::options::{AccelKind, Antialiasing, Common, MailboxKind, Store, Walk};
 
 /// What traces on this host.
 pub type HostTracer<'a, R> = Tracer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>>;
@@ -117,7 +117,32 @@ pub fn plan_for_threads<R: Real, S: Shapes<R>>(
     })
 }
 
-/// A structure and mailboxes, in an arena.
+/// What pictures need of the arena.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture {
+    /// Pixels in a row.
+    pub width: u16,
+    /// Rays a pixel.
+    pub aa: Antialiasing,
+}
+
+impl Picture {
+    /// Where there is none.
+    pub const NONE: Self = Self { width: 0, aa: Antialiasing::Off };
+
+    fn sampling<'m, R: Real>(self, arena: &mut Arena<'m>) -> Result<Sampling<'m, R>, OutOfArena> {
+        Ok(match self.aa {
+            Antialiasing::Off => Sampling::Middle,
+            Antialiasing::Uniform(n) => Sampling::Uniform(n),
+            Antialiasing::Adaptive(threshold) => {
+                let threshold = R::from_f64(threshold);
+                Sampling::Adaptive(Adaptive::new(self.width, threshold, MOST_LEVELS, arena)?)
+            }
+        })
+    }
+}
+
+/// A structure, mailboxes and what is remembered of a picture, in an arena.
 #[derive(Debug)]
 pub struct Built<'m, R: Real> {
     /// What was decided.
@@ -126,6 +151,8 @@ pub struct Built<'m, R: Real> {
     pub accel: Any<'m, R>,
     /// A mailbox a thread.
     pub mailboxes: Vec<AnyMailbox<'m>>,
+    /// How to sample, a thread.
+    pub samplings: Vec<Sampling<'m, R>>,
     /// How long all that took.
     pub seconds: f64,
 }
@@ -138,17 +165,27 @@ impl<'m, R: Real> Built<'m, R> {
     pub fn new<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
         options: &Common,
+        picture: Picture,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         let start = Instant::now();
         let threads = usize::from(options.threads);
-        let plan = plan_for_threads(scene, arena.capacity(), &wishes(options), threads)?;
+        let samplings = (0..threads).map(|_| picture.sampling(arena)).collect::<Result<_, _>>()?;
+        let (budget, taken) = (arena.available(), arena.used());
+        let plan = plan_for_threads(scene, budget, &wishes(options), threads);
+        let plan = plan.map_err(|error| match error {
+            BuildError::Memory(OutOfArena { needed, available }) => {
+                let needed = needed.saturating_add(taken);
+                OutOfArena { needed, available: available.saturating_add(taken) }.into()
+            }
+            error => error,
+        })?;
         let shapes = scene.shapes().bounded();
         let mailboxes = (0..threads)
             .map(|_| AnyMailbox::new(plan.mailbox, shapes, arena))
             .collect::<Result<_, _>>()?;
         let accel = Any::build(plan.accel, scene, arena)?;
-        Ok(Self { plan, accel, mailboxes, seconds: start.elapsed().as_secs_f64() })
+        Ok(Self { plan, accel, mailboxes, samplings, seconds: start.elapsed().as_secs_f64() })
     }
 
     /// The mailbox's name on the command line.

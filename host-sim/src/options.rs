@@ -84,9 +84,16 @@ pub struct Render {
     #[arg(long, value_name = "D", default_value_t = 5)]
     #[arg(value_parser = clap::value_parser!(u8).range(1..=i64::from(MOST_DEPTH)))]
     pub max_depth: u8,
-    /// Antialiasing; `off` is all there is so far
-    #[arg(long, value_name = "KIND", default_value = "off")]
-    pub aa: String,
+    /// Rays a pixel: `off`, one through the middle; N, a square of N by N; `adaptive[:T]`, through
+    /// the corners, divided up to 8 times along an edge where a channel differs by more than T
+    /// [T: 0.1]
+    #[arg(long, value_name = "off|N|adaptive[:T]", default_value = "off")]
+    #[arg(value_parser = values::antialiasing)]
+    pub aa: Antialiasing,
+    /// Leave out mirrored and refracted rays whose share of the pixel is less, as in 0.004
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    #[arg(value_parser = values::share)]
+    pub cutoff: f64,
     /// Also draw the work of every pixel (tests and traversal steps) as colours
     #[arg(long, value_name = "FILE")]
     pub heatmap: Option<PathBuf>,
@@ -195,6 +202,17 @@ pub struct Common {
 #[allow(missing_docs)]
 pub enum RaySet {
     Spd,
+}
+
+/// `--aa`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Antialiasing {
+    /// One ray through the middle of a pixel.
+    Off,
+    /// A square of so many by so many rays.
+    Uniform(u8),
+    /// Where a channel differs by more than this.
+    Adaptive(f64),
 }
 
 /// `--accel`.

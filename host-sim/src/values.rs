@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::options::Antialiasing;
+
 /// An arena of more is not a microcontroller's, nor this host's.
 const MOST_BYTES: usize = 16 << 30;
 
@@ -45,6 +47,34 @@ pub fn size(text: &str) -> Result<(u16, u16), String> {
         return Err(format!("at most {MOST_PIXELS} pixels"));
     }
     Ok((width, height))
+}
+
+/// `off`, `4`, `adaptive`, `adaptive:0.05`.
+///
+/// # Errors
+/// One line that says what is expected.
+pub fn antialiasing(text: &str) -> Result<Antialiasing, String> {
+    let wrong = || "give off, 1 to 16, adaptive or adaptive:T, as in adaptive:0.05".to_owned();
+    match text {
+        "off" => Ok(Antialiasing::Off),
+        "adaptive" => Ok(Antialiasing::Adaptive(0.1)),
+        _ => match text.strip_prefix("adaptive:") {
+            Some(threshold) => share(threshold).map(Antialiasing::Adaptive),
+            None => match natural(text) {
+                Some(n @ 1..=16) => Ok(Antialiasing::Uniform(n as u8)),
+                _ => Err(wrong()),
+            },
+        },
+    }
+}
+
+/// A part of 1.
+///
+/// # Errors
+/// One line that says what is expected.
+pub fn share(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
+    number.ok_or_else(|| "give a number from 0 to 1, as in 0.004".into())
 }
 
 /// `NXxNYxNZ`.

@@ -77,6 +77,10 @@ fn wrong_usage_is_status_2() {
         "render spd:tetra:1 --max-depth 17",
         "render spd:tetra:1 --accel bvh",
         "render spd:tetra:1 --num f16",
+        "render spd:tetra:1 --aa 0",
+        "render spd:tetra:1 --aa 17",
+        "render spd:tetra:1 --aa adaptive:2",
+        "render spd:tetra:1 --cutoff -1",
         "render spd:tetra:1 --mailbox huge",
         "render spd:tetra:1 --grid 4x4",
         "render spd:tetra:1 --grid 0x4x4",
@@ -115,7 +119,6 @@ fn what_is_not_built_yet_says_so() {
     let cases = [
         ("stats scene.nff --num fixed", "--num fixed is not built yet: take f32 or f64"),
         ("stats scene.nff --overlap exact", "--overlap exact is not built yet: take box"),
-        ("render scene.nff --aa 4", "--aa 4 is not built yet: take off"),
         ("stats scene.nff --accel octree --grid 1x1x1", "--grid is only for --accel grid"),
         (
             "stats scene.nff --accel grid --max-level 3",
@@ -318,6 +321,33 @@ fn the_picture_is_the_same_with_every_structure_and_any_threads() {
     ] {
         assert_eq!(picture(options), naive, "{options}");
     }
+}
+
+#[test]
+fn smooth_pictures_are_the_same_with_any_threads_and_cost_more_rays() {
+    let folder = folder(&[]);
+    let report = |options: &str| {
+        let arguments = format!("render scene.nff --accel naive --json - {options}");
+        json(&run_in(folder.path(), &arguments.split_whitespace().collect::<Vec<_>>()))
+    };
+    let rays = |report: &Value| report["rays"]["primary"].as_u64().unwrap();
+    let off = report("");
+    for n in [1, 2, 3] {
+        assert_eq!(rays(&report(&format!("--aa {n}"))), n * n * rays(&off), "{n}");
+    }
+    assert_eq!(report("--aa 1")["image"], off["image"]);
+    let adaptive = report("--aa adaptive");
+    assert!(rays(&adaptive) > 65 * 49 && rays(&adaptive) < 9 * rays(&off), "{adaptive}");
+    assert_eq!(adaptive["image"], report("--aa adaptive --threads 3")["image"]);
+    let part = &adaptive["memory"]["parts"][0];
+    assert_eq!(
+        (part["name"].as_str(), part["bytes"].as_u64()),
+        (Some("corner samples"), Some(784))
+    );
+    let message = one_line(folder.path(), "render scene.nff --aa adaptive --ram 783", 1);
+    assert_eq!(message, "too little memory: 784 bytes needed, 783 bytes there; give --ram 784");
+    let faint = report("--cutoff 1");
+    assert_eq!(faint["rays"]["secondary"].as_u64(), Some(0));
 }
 
 #[test]

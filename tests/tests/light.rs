@@ -19,15 +19,15 @@ fn ray<R: Real>(origin: [f64; 3], direction: [f64; 3]) -> Ray<R> {
     Ray::new(Vec3::<R>::from_f64(origin), Vec3::<R>::from_f64(direction)).unwrap()
 }
 
-fn deep(max_depth: u8) -> Settings {
-    Settings { max_depth, secondary: Secondary::Contributing }
+fn deep<R: Real>(max_depth: u8) -> Settings<R> {
+    Settings { max_depth, ..Settings::default() }
 }
 
 /// The colour that a ray sees, and what was counted on its way.
 fn trace<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     ray: Ray<R>,
-    settings: Settings,
+    settings: Settings<R>,
 ) -> ([f64; 3], Counters) {
     let (naive, mut counters) = (Naive::new(scene), Counters::default());
     let color = Tracer::new(scene, &naive, mailbox::Off, settings).color(ray, &mut counters);
@@ -449,7 +449,7 @@ fn depth_says_how_often_light_is_mirrored() {
         let scene = scene.lit(&[], v::<f32>(1.0, 1.0, 1.0)).unwrap();
         for depth in 0..=u8::MAX {
             for secondary in [Secondary::Contributing, Secondary::All] {
-                let settings = Settings { max_depth: depth, secondary };
+                let settings = Settings { max_depth: depth, secondary, ..Settings::default() };
                 let (color, counters) =
                     trace(&scene, ray::<f32>([0.0, 0.5, 0.0], [1.0, -1.0, 0.1]), settings);
                 let rays = u64::from(depth.clamp(1, MOST_DEPTH));

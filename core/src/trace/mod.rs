@@ -1,7 +1,9 @@
 //! From rays to pictures.
 
 mod renderer;
+mod sampling;
 mod whitted;
 
 pub use renderer::Renderer;
+pub use sampling::{Adaptive, MOST_LEVELS, Sampling};
 pub use whitted::{MOST_DEPTH, Secondary, Settings, Tracer};

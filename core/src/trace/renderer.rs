@@ -1,6 +1,7 @@
 //! Pictures, row by row.
 
 use super::Tracer;
+use super::sampling::{self, Sampling};
 use crate::accel::{Accel, Mailbox};
 use crate::display::rgb888;
 use crate::num::{Real, Vec3};
@@ -12,7 +13,7 @@ use embedded_graphics_core::prelude::{Point, Size};
 use embedded_graphics_core::primitives::Rectangle;
 
 /// Renders a picture row by row, so that a main loop never waits longer than for one row. Keeps no
-/// pixels.
+/// pixels, but for what [`Sampling`] says.
 #[derive(Debug)]
 pub struct Renderer<'a, R: Real, S, A, M> {
     tracer: Tracer<'a, R, S, A, M>,
@@ -20,12 +21,19 @@ pub struct Renderer<'a, R: Real, S, A, M> {
     width: u16,
     height: u16,
     next_row: u16,
+    sampling: Sampling<'a, R>,
 }
 
 impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Renderer<'a, R, S, A, M> {
     /// A picture of so many pixels, not begun. The camera's aspect should be `width / height`.
     pub fn new(tracer: Tracer<'a, R, S, A, M>, camera: Camera<R>, width: u16, height: u16) -> Self {
-        Self { tracer, camera, width, height, next_row: 0 }
+        Self { tracer, camera, width, height, next_row: 0, sampling: Sampling::Middle }
+    }
+
+    /// The same picture, each pixel made from other rays than the one through its middle.
+    #[must_use]
+    pub fn sampled(self, sampling: Sampling<'a, R>) -> Self {
+        Self { sampling, ..self }
     }
 
     /// The row that comes next, from the top; the height when the picture is done.
@@ -38,14 +46,24 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Renderer<'a, R, S, A, M
         self.next_row = row.min(self.height);
     }
 
-    /// The colour of a pixel: one ray through its middle. The pixel (0, 0) is at the upper left.
+    /// The colour of a pixel. The pixel (0, 0) is at the upper left.
     pub fn pixel<P: Probe>(&mut self, x: u16, y: u16, probe: &mut P) -> Vec3<R> {
-        // Middles of pixels, in halves of pixels from the middle of the picture.
-        let across = |i: u16, n: u16| {
-            R::from_i32(2 * i32::from(i) + 1 - i32::from(n)) / R::from_i32(i32::from(n))
+        let Self { tracer, camera, width, height, sampling, .. } = self;
+        let parts = sampling::parts(sampling);
+        // From points in parts of pixels to -1..1 across the picture.
+        let across = |i: i32, n: u16| {
+            let n = i32::from(n) * parts;
+            R::from_i32(2 * i - n) / R::from_i32(n)
         };
-        let ray = self.camera.ray(across(x, self.width), -across(y, self.height));
-        ray.map_or_else(Vec3::<R>::default, |ray| self.tracer.color(ray, probe))
+        let mut see = |x: i32, y: i32| {
+            let ray = camera.ray(across(x, *width), -across(y, *height));
+            ray.map_or_else(Vec3::<R>::default, |ray| tracer.color(ray, probe))
+        };
+        match sampling {
+            Sampling::Middle => see(2 * i32::from(x) + 1, 2 * i32::from(y) + 1),
+            Sampling::Uniform(n) => sampling::uniform::<R>(x, y, (*n).max(1), &mut see),
+            Sampling::Adaptive(adaptive) => adaptive.pixel(x, y, &mut see),
+        }
     }
 
     /// Renders the next row into a display, in one call of

@@ -13,10 +13,9 @@ use kibiray::probe::Counters;
 use kibiray::scene::{Camera, Solids};
 use kibiray::trace::{Renderer, Secondary, Settings, Tracer};
 
-use super::Usage;
 use super::stage::{self, DEFAULT_RAM, Stage};
 use crate::description::demo;
-use crate::engine::{self, Built, share, timed};
+use crate::engine::{self, Built, Picture, share, timed};
 use crate::image::{HeatMap, Image};
 use crate::options::{Cli, Command, Number, Render};
 use crate::report::{ImageReport, RaysReport, Report};
@@ -31,10 +30,6 @@ pub(super) fn run(options: Option<Render>) -> anyhow::Result<()> {
         Some(options) => options,
         None => defaults()?,
     };
-    if options.aa != "off" {
-        let kind = options.aa.escape_debug();
-        return Err(Usage(format!("--aa {kind} is not built yet: take off")).into());
-    }
     let output = options.output.clone().unwrap_or_else(|| default_output(&options));
     for path in options.heatmap.iter().chain([&output]) {
         super::check_folder(path)?;
@@ -45,11 +40,17 @@ pub(super) fn run(options: Option<Render>) -> anyhow::Result<()> {
     };
     let ram = options.common.ram.unwrap_or(ram);
     let loaded = stage::open(name, &options.common)?;
-    match options.common.num {
-        Number::F64 => {
-            stage::set::<f64>(&loaded, &options.common, ram, |it| render(&options, &output, it))
-        }
-        _ => stage::set::<f32>(&loaded, &options.common, ram, |it| render(&options, &output, it)),
+    let file_size = loaded.description.view.map(|view| view.resolution);
+    let size = options.size.unwrap_or_else(|| usable_size(file_size));
+    let picture = Picture { width: size.0, aa: options.aa };
+    let common = &options.common;
+    match common.num {
+        Number::F64 => stage::set::<f64>(&loaded, common, ram, picture, |it| {
+            render(&options, &output, size, it)
+        }),
+        _ => stage::set::<f32>(&loaded, common, ram, picture, |it| {
+            render(&options, &output, size, it)
+        }),
     }
 }
 
@@ -77,23 +78,31 @@ struct Worker<'a, R: Real> {
     counters: Counters,
 }
 
-fn render<R: Real>(options: &Render, output: &Path, stage: Stage<'_, R>) -> anyhow::Result<()> {
-    let Stage { description, tables, scene, built, mut report } = stage;
+fn render<R: Real>(
+    options: &Render,
+    output: &Path,
+    (width, height): (u16, u16),
+    stage: Stage<'_, R>,
+) -> anyhow::Result<()> {
+    let Stage { tables, scene, built, mut report, .. } = stage;
     if report.scene.skipped > 0 {
         let skipped = report.scene.skipped;
         eprintln!("warning: left out for having no area or radius: {skipped} of the shapes");
     }
-    let Built { plan, accel, mailboxes, .. } = built;
-    let file_size = description.view.map(|view| view.resolution);
-    let (width, height) = options.size.unwrap_or_else(|| usable_size(file_size));
+    let Built { plan, accel, mailboxes, samplings, .. } = built;
     let aspect = R::from_i32(width.into()) / R::from_i32(height.into());
     let camera = Camera::new(tables.view(), aspect)?;
-    let settings = Settings { max_depth: options.max_depth, secondary: Secondary::Contributing };
+    let settings = Settings {
+        max_depth: options.max_depth,
+        secondary: Secondary::Contributing,
+        cutoff: R::from_f64(options.cutoff),
+    };
     let mut workers: Vec<_> = mailboxes
         .into_iter()
-        .map(|mailbox| {
+        .zip(samplings)
+        .map(|(mailbox, sampling)| {
             let tracer = Tracer::new(scene, &accel, mailbox, settings);
-            let renderer = Renderer::new(tracer, camera, width, height);
+            let renderer = Renderer::new(tracer, camera, width, height).sampled(sampling);
             Worker { renderer, counters: Counters::default() }
         })
         .collect();
@@ -158,6 +167,9 @@ fn progress(height: u16) -> ProgressBar {
     }
 }
 
+/// Rows that a thread renders together: those that share corners.
+const BAND: usize = 16;
+
 /// Renders all rows, with the work of every pixel.
 fn draw<R: Real>(
     workers: &mut [Worker<'_, R>],
@@ -166,25 +178,28 @@ fn draw<R: Real>(
     bar: &ProgressBar,
 ) {
     let width = usize::from(image.width);
-    let rows = image.rgb.chunks_mut(3 * width).zip(work.chunks_mut(width));
-    share(workers, (0_u16..).zip(rows), |worker, (y, (rgb, work))| {
-        for ((x, rgb), work) in (0..).zip(rgb.chunks_exact_mut(3)).zip(work) {
+    let bands = image.rgb.chunks_mut(3 * width * BAND).zip(work.chunks_mut(width * BAND));
+    share(workers, (0..=u16::MAX).step_by(BAND).zip(bands), |worker, (y, (rgb, work))| {
+        for ((i, rgb), work) in (0..).zip(rgb.chunks_exact_mut(3)).zip(work) {
+            let (x, y) = ((i % width) as u16, y + (i / width) as u16);
             let mut counters = Counters::default();
             let color = rgb888::<R>(worker.renderer.pixel(x, y, &mut counters));
             rgb.copy_from_slice(&[color.r(), color.g(), color.b()]);
             *work = u32::try_from(counters.primitive_tests + counters.steps).unwrap_or(u32::MAX);
             worker.counters += counters;
+            bar.inc(u64::from(i % width == width - 1));
         }
-        bar.inc(1);
     });
 }
 
 /// Renders all rows once more, uncounted, for the time only.
 fn again<R: Real>(workers: &mut [Worker<'_, R>], image: &Image) {
-    let width = image.width;
-    share(workers, 0..image.height, |worker, y| {
-        for x in 0..width {
-            std::hint::black_box(rgb888::<R>(worker.renderer.pixel(x, y, &mut ())));
+    let (width, height) = (image.width, image.height);
+    share(workers, (0..height).step_by(BAND), |worker, first| {
+        for y in first..height.min(first.saturating_add(BAND as u16)) {
+            for x in 0..width {
+                std::hint::black_box(rgb888::<R>(worker.renderer.pixel(x, y, &mut ())));
+            }
         }
     });
 }

@@ -11,7 +11,7 @@ use kibiray::scene::{Scene, Solids};
 use super::Usage;
 use crate::description::Description;
 use crate::description::load::load;
-use crate::engine::{Built, Memory, Pass};
+use crate::engine::{Built, Memory, Pass, Picture};
 use crate::options::{Common, Number};
 use crate::report::{
     AccelReport, MemoryReport, RaysReport, Report, SceneReport, TimeReport, WorkReport,
@@ -23,7 +23,6 @@ pub(super) const DEFAULT_RAM: usize = 256 << 10;
 
 /// Everything is ready to trace.
 pub(super) struct Stage<'a, R: Real> {
-    pub(super) description: &'a Description,
     pub(super) tables: &'a Tables<R>,
     pub(super) scene: &'a Scene<'a, R, Solids<'a, R>>,
     pub(super) built: Built<'a, R>,
@@ -33,7 +32,7 @@ pub(super) struct Stage<'a, R: Real> {
 
 /// A scene, loaded.
 pub(super) struct Loaded {
-    description: Description,
+    pub(super) description: Description,
     seconds: f64,
 }
 
@@ -53,6 +52,7 @@ pub(super) fn set<R: Real>(
     loaded: &Loaded,
     options: &Common,
     ram: usize,
+    picture: Picture,
     act: impl FnOnce(Stage<'_, R>) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     let Loaded { description, seconds } = loaded;
@@ -65,7 +65,8 @@ pub(super) fn set<R: Real>(
 
     let mut memory = Memory::new(ram)?;
     let mut arena = memory.arena();
-    let built = Built::new(&scene, options, &mut arena).map_err(|error| build_error(&error))?;
+    let built =
+        Built::new(&scene, options, picture, &mut arena).map_err(|error| build_error(&error))?;
     let report = Report {
         scene: SceneReport {
             name: description.name.clone(),
@@ -82,7 +83,7 @@ pub(super) fn set<R: Real>(
         time: TimeReport { load_s, build_s: built.seconds, ..TimeReport::default() },
         image: None,
     };
-    act(Stage { description, tables: &tables, scene: &scene, built, report })
+    act(Stage { tables: &tables, scene: &scene, built, report })
 }
 
 impl Report {

@@ -6,7 +6,7 @@ use kibiray::scene::Camera;
 use kibiray::trace::{Secondary, Settings, Tracer};
 
 use super::stage::{self, DEFAULT_RAM, Stage};
-use crate::engine::{Built, HostTracer, fastest, share};
+use crate::engine::{Built, HostTracer, Picture, fastest, share};
 use crate::options::{Number, RaySet, Stats};
 use crate::report::RaysReport;
 
@@ -18,8 +18,12 @@ pub(super) fn run(options: &Stats) -> anyhow::Result<()> {
     let loaded = stage::open(&options.scene, &options.common)?;
     let ram = options.common.ram.unwrap_or(DEFAULT_RAM);
     match options.common.num {
-        Number::F64 => stage::set::<f64>(&loaded, &options.common, ram, |it| trace(options, it)),
-        _ => stage::set::<f32>(&loaded, &options.common, ram, |it| trace(options, it)),
+        Number::F64 => {
+            stage::set::<f64>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
+        }
+        _ => {
+            stage::set::<f32>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
+        }
     }
 }
 
@@ -33,7 +37,7 @@ fn trace<R: Real>(options: &Stats, stage: Stage<'_, R>) -> anyhow::Result<()> {
     let Stage { tables, scene, built, mut report, .. } = stage;
     let Built { accel, mailboxes, .. } = built;
     let RaySet::Spd = options.rays;
-    let settings = Settings { max_depth: 5, secondary: Secondary::All };
+    let settings = Settings { secondary: Secondary::All, ..Settings::default() };
     let camera = Camera::new(tables.view(), R::ONE)?;
     let mut workers: Vec<_> = mailboxes
         .into_iter()

@@ -11,7 +11,7 @@ use kibiray::scene::{Scene, Solids};
 
 use super::stage::{self, DEFAULT_RAM, Stage};
 use super::{Usage, shown};
-use crate::engine::{Built, fastest, share};
+use crate::engine::{Built, Picture, fastest, share};
 use crate::options::{Number, Trace};
 use crate::rays::{Answer, Query};
 use crate::report::RaysReport;
@@ -26,8 +26,12 @@ pub(super) fn run(options: &Trace) -> anyhow::Result<()> {
     let loaded = stage::open(&options.scene, &options.common)?;
     let ram = options.common.ram.unwrap_or(DEFAULT_RAM);
     match options.common.num {
-        Number::F64 => stage::set::<f64>(&loaded, &options.common, ram, |it| trace(options, it)),
-        _ => stage::set::<f32>(&loaded, &options.common, ram, |it| trace(options, it)),
+        Number::F64 => {
+            stage::set::<f64>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
+        }
+        _ => {
+            stage::set::<f32>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
+        }
     }
 }
 

@@ -1,0 +1,272 @@
+//! From which rays a pixel's colour is made.
+//!
+//! The adaptive way is that of T. Whitted, "An improved illumination model for shaded display",
+//! CACM 23(6) (1980): rays go through the corners of pixels, where up to four pixels share them;
+//! where corners differ, the square between them is divided, and its parts again. A row of corners
+//! is all that is remembered between pixels.
+
+use crate::memory::{Arena, Footprint, OutOfArena};
+use crate::num::{Real, Vec3, Vector};
+use heapless::Vec;
+
+/// The most levels of division, so that a part is an eighth of a pixel wide.
+pub const MOST_LEVELS: u8 = 3;
+
+/// Parts of a pixel's edge at the deepest level.
+const PARTS: i32 = 1 << MOST_LEVELS;
+
+/// How a pixel is sampled. Where several rays make a pixel, what each sees is cut to 0 to 1 first: a
+/// single highlight would outshine its neighbours otherwise.
+#[derive(Debug, Default)]
+pub enum Sampling<'m, R: Real> {
+    /// One ray through the middle.
+    #[default]
+    Middle,
+    /// A square grid of rays, so many along each edge; 0 counts as 1.
+    Uniform(u8),
+    /// Rays through the corners, and more where they differ.
+    Adaptive(Adaptive<'m, R>),
+}
+
+/// What adaptive sampling remembers: the corners of one row.
+#[derive(Debug)]
+pub struct Adaptive<'m, R: Real> {
+    /// Corners of the row's upper line; left of the pixel that comes next, of its lower line.
+    corners: &'m mut [Vec3<R>],
+    /// The corner at the lower left of the pixel that comes next.
+    left: Vec3<R>,
+    /// The pixel that comes next.
+    next: Option<(u16, u16)>,
+    threshold: R,
+    levels: u8,
+}
+
+impl<'m, R: Real> Adaptive<'m, R> {
+    /// For pictures of so many columns. A square is divided while one of the channels differs by more
+    /// than `threshold` (0 to 1) between its corners, at most `levels` times (up to
+    /// [`MOST_LEVELS`]).
+    ///
+    /// # Errors
+    /// The arena has no room for [`Adaptive::footprint`].
+    pub fn new(
+        width: u16,
+        threshold: R,
+        levels: u8,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, OutOfArena> {
+        arena.require(Self::footprint(width))?;
+        let corners = arena.keep("corner samples", usize::from(width) + 1)?;
+        let levels = levels.min(MOST_LEVELS);
+        Ok(Self { corners, left: Vec3::<R>::default(), next: None, threshold, levels })
+    }
+
+    /// The bytes it takes: 12 a column in `f32`.
+    pub fn footprint(width: u16) -> Footprint {
+        Footprint::of::<Vec3<R>>(usize::from(width) + 1)
+    }
+
+    /// The colour of a pixel, from what `see` sees at points of the picture, counted in eighths of
+    /// pixels. Goes fastest along rows from left to right and from the top; pixels out of order cost
+    /// all their corners.
+    pub(super) fn pixel(
+        &mut self,
+        x: u16,
+        y: u16,
+        see: &mut impl FnMut(i32, i32) -> Vec3<R>,
+    ) -> Vec3<R> {
+        let (column, row) = (i32::from(x) * PARTS, i32::from(y) * PARTS);
+        let mut see = |x, y| see(x, y).map(|c| c.clamp(R::ZERO, R::ONE));
+        let i = usize::from(x);
+        let in_order = self.next == Some((x, y));
+        if !in_order {
+            // The beginning of a row sees all of its corners, another pixel only its own.
+            let last = if x == 0 { usize::MAX } else { i + 2 };
+            for (i, corner) in self.corners.iter_mut().enumerate().take(last).skip(i) {
+                *corner = see(i as i32 * PARTS, row);
+            }
+        }
+        if !in_order || x == 0 {
+            self.left = see(column, row + PARTS);
+        }
+        let corner = see(column + PARTS, row + PARTS);
+        let is_last = i + 2 >= self.corners.len();
+        let Some([upper_left, upper_right]) = self.corners.get_mut(i..i + 2) else {
+            return Vec3::<R>::default();
+        };
+        let corners = [*upper_left, *upper_right, self.left, corner];
+        *upper_left = self.left;
+        self.left = corner;
+        self.next = if is_last {
+            *upper_right = corner;
+            y.checked_add(1).map(|y| (0, y))
+        } else {
+            x.checked_add(1).map(|x| (x, y))
+        };
+        if !in_order && x > 0 {
+            self.next = None;
+        }
+        self.divide(Square { x: column, y: row, size: PARTS, corners }, &mut see)
+    }
+
+    /// The colour of a square, divided where its corners differ.
+    #[inline(never)]
+    fn divide(&self, pixel: Square<R>, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
+        let least = PARTS >> self.levels;
+        let mut color = Vec3::<R>::default();
+        // A divided square leaves its three brothers behind at every level.
+        let mut squares = Vec::<Square<R>, { 3 * MOST_LEVELS as usize + 1 }>::new();
+        let _ = squares.push(pixel);
+        while let Some(Square { x, y, size, corners }) = squares.pop() {
+            let [a, b, c, d] = corners;
+            let (least_seen, most_seen) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
+            let differs = (most_seen - least_seen).max_abs() > self.threshold;
+            if !(differs && size > least) {
+                let area = R::from_i32(size * size) / R::from_i32(4 * PARTS * PARTS);
+                color = color + (a + b + (c + d)) * area;
+                continue;
+            }
+            let half = size / 2;
+            let (top, left) = (see(x + half, y), see(x, y + half));
+            let middle = see(x + half, y + half);
+            let (right, bottom) = (see(x + size, y + half), see(x + half, y + size));
+            for (x, y, corners) in [
+                (x, y, [a, top, left, middle]),
+                (x + half, y, [top, b, middle, right]),
+                (x, y + half, [left, middle, c, bottom]),
+                (x + half, y + half, [middle, right, bottom, d]),
+            ] {
+                let _ = squares.push(Square { x, y, size: half, corners });
+            }
+        }
+        color
+    }
+}
+
+/// A part of the picture: its upper left corner and its edge in eighths of pixels, and what is seen
+/// at the upper left, upper right, lower left and lower right.
+struct Square<R: Real> {
+    x: i32,
+    y: i32,
+    size: i32,
+    corners: [Vec3<R>; 4],
+}
+
+/// The mean of what is seen in the middles of `n` by `n` parts of a pixel, from points counted in
+/// `2 n`ths of pixels.
+pub(super) fn uniform<R: Real>(
+    x: u16,
+    y: u16,
+    n: u8,
+    see: &mut impl FnMut(i32, i32) -> Vec3<R>,
+) -> Vec3<R> {
+    let n = i32::from(n);
+    let mut color = Vec3::<R>::default();
+    for j in 0..n {
+        for i in 0..n {
+            let seen = see(2 * (i32::from(x) * n + i) + 1, 2 * (i32::from(y) * n + j) + 1);
+            color = color + seen.map(|c| c.clamp(R::ZERO, R::ONE));
+        }
+    }
+    color * (R::ONE / R::from_i32(n * n))
+}
+
+/// In how many parts a pixel's edge is counted.
+pub(super) const fn parts(sampling: &Sampling<'_, impl Real>) -> i32 {
+    match sampling {
+        Sampling::Middle | Sampling::Uniform(0) => 2,
+        Sampling::Uniform(n) => 2 * *n as i32,
+        Sampling::Adaptive(_) => PARTS,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Vec3, vec3};
+
+    /// White left of a slanted edge, black right of it, with a note of every point.
+    struct Edge {
+        seen: std::vec::Vec<(i32, i32)>,
+    }
+
+    extern crate std;
+
+    impl Edge {
+        fn see(&mut self, x: i32, y: i32) -> Vec3 {
+            self.seen.push((x, y));
+            if x * 3 + y < 40 * PARTS { Vec3::ONE } else { Vec3::ZERO }
+        }
+    }
+
+    fn picture(
+        levels: u8,
+        order: &mut dyn FnMut(u16) -> std::vec::Vec<u16>,
+    ) -> (std::vec::Vec<Vec3>, usize) {
+        let mut bytes = [0_u64; 64];
+        let mut arena = Arena::new(bytemuck::cast_slice_mut(&mut bytes));
+        let mut adaptive = Adaptive::<f32>::new(20, 0.1, levels, &mut arena).unwrap();
+        let mut edge = Edge { seen: std::vec::Vec::new() };
+        let mut pixels = std::vec![Vec3::ZERO; 20 * 15];
+        for y in 0..15 {
+            for x in order(y) {
+                let pixel = adaptive.pixel(x, y, &mut |x, y| edge.see(x, y));
+                pixels[usize::from(y) * 20 + usize::from(x)] = pixel;
+            }
+        }
+        (pixels, edge.seen.len())
+    }
+
+    #[test]
+    fn corners_are_shared_and_the_order_does_not_matter() {
+        let (pixels, rays) = picture(0, &mut |_| (0..20).collect());
+        assert_eq!(rays, 21 * 16, "a ray a corner");
+        let (backwards, more) = picture(0, &mut |_| (0..20).rev().collect());
+        assert_eq!(pixels, backwards);
+        assert!(more > 3 * rays);
+        let (skipping, _) = picture(0, &mut |_| (5..20).chain(0..5).collect());
+        assert_eq!(pixels, skipping);
+    }
+
+    #[test]
+    fn an_edge_is_as_smooth_as_its_levels() {
+        // The share of white that the slanted edge leaves in the pixels that it crosses.
+        let exact = |x: usize, y: usize| {
+            let mut white = 0.0;
+            for j in 0..64 {
+                let fy = y as f32 + (j as f32 + 0.5) / 64.0;
+                white += ((40.0 - fy) / 3.0 - x as f32).clamp(0.0, 1.0) / 64.0;
+            }
+            white
+        };
+        let mut before = f32::INFINITY;
+        for (levels, bound) in [(0, 0.5), (1, 0.25), (2, 0.13), (3, 0.07)] {
+            let (pixels, rays) = picture(levels, &mut |_| (0..20).collect());
+            let mut worst = 0.0_f32;
+            for (i, pixel) in pixels.iter().enumerate() {
+                worst = worst.max((pixel.x - exact(i % 20, i / 20)).abs());
+            }
+            assert!(worst < bound && worst < before, "{levels}: {worst}");
+            assert!(rays < 21 * 16 + 15 * 3 * 5 * 4_usize.pow(levels.into()), "{rays}");
+            before = worst;
+        }
+    }
+
+    #[test]
+    fn a_uniform_grid_is_cut_and_averaged() {
+        let mut seen = std::vec::Vec::new();
+        let color = uniform::<f32>(3, 1, 2, &mut |x, y| {
+            seen.push((x, y));
+            vec3(9.0, 0.5, -1.0)
+        });
+        assert_eq!(color, vec3(1.0, 0.5, 0.0));
+        assert_eq!(seen, [(13, 5), (15, 5), (13, 7), (15, 7)]);
+    }
+
+    #[test]
+    fn too_small_an_arena_is_told() {
+        let mut bytes = [0_u64; 2];
+        let mut arena = Arena::new(bytemuck::cast_slice_mut(&mut bytes));
+        let error = Adaptive::<f32>::new(20, 0.1, 3, &mut arena).map(|_| ()).unwrap_err();
+        assert_eq!((error.needed, error.available), (21 * 12 + 4, 16));
+    }
+}
