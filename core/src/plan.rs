@@ -166,7 +166,12 @@ fn fit<R: Real, S: Shapes<R>>(
         }),
         Structure::Bvh => {
             let shapes = scene.shapes().bounded();
-            accel::Kind::Bvh(bvh::nodes_within(shapes, budget.saturating_sub(taken.kept)))
+            let room = budget.saturating_sub(taken.kept);
+            accel::Kind::Bvh(if shapes <= <u16 as accel::Id>::MAX {
+                bvh::nodes_within::<u16>(shapes, room)
+            } else {
+                bvh::nodes_within::<u32>(shapes, room)
+            })
         }
     };
     let least = match accel {

@@ -137,6 +137,7 @@ impl AccelReport {
             interior_nodes: Some(bvh.nodes()),
             leaves: Some(leaves),
             references: Some(references),
+            max_level: Some(bvh.levels() as u32),
             ..Self::default()
         }
     }

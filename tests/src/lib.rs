@@ -142,10 +142,10 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (Kind::Grid([1; 3]), Off, UNLIMITED)];
     // From the fewest nodes to one shape a leaf, and as a budget comes out.
     let shapes = scene.shapes().bounded();
-    for nodes in [0, shapes / 16, shapes / 6, shapes] {
+    for nodes in [0, shapes / 24, shapes / 10, shapes] {
         setups.push((Kind::Bvh(nodes), Off, UNLIMITED));
     }
-    setups.push((Kind::Bvh(bvh::nodes_within(shapes, 16 << 10)), Cache, 16 << 10));
+    setups.push((Kind::Bvh(bvh::nodes_within::<u32>(shapes, 16 << 10)), Cache, 16 << 10));
     use octree::{Store::Hashed, Store::Links, Walk};
     for (store, walk) in [
         (Hashed, Walk::Restart),

@@ -1,113 +1,157 @@
-//! A node of 36 bytes: boxes of four children in a byte a side.
+//! A node of 64 bytes: the boxes of eight children, a byte a side.
 //!
-//! Boxes are stored as steps from the least corner of the node's own box; a step is a power of two
-//! of units, another one along each axis, rounded outwards. T. Ylitie, T. Karras, S. Laine,
-//! "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG 2017. J. Mahovsky
-//! and B. Wyvill, "Memory-conserving bounding volume hierarchies with coherent raytracing", CGF
-//! 25(2) (2006), for boxes in whole numbers relative to their parent's.
+//! T. Ylitie, T. Karras, S. Laine, "Efficient incoherent ray traversal on GPUs through compressed
+//! wide BVHs", HPG 2017: sides are whole steps from the least corner of the node's own box, a step
+//! being a power of two, another one along each axis. Before: J. Mahovsky and B. Wyvill,
+//! "Memory-conserving bounding volume hierarchies with coherent raytracing", CGF 25(2) (2006).
 
 use super::units::{Bounds, Course};
 use crate::num::Real;
 
 /// Children of a node.
-pub(super) const WIDTH: usize = 4;
+pub(super) const WIDTH: usize = 8;
 
-/// A node as it is stored:
+const ROWS: usize = 8;
+
+/// A node as it is stored.
 ///
-/// | word | bytes from the least significant |
+/// | row | a byte a child |
 /// |---|---|
-/// | 0 to 2 | least x, y, z of the four children's boxes, in steps |
+/// | 0 to 2 | least x, y, z of its box, in steps |
 /// | 3 to 5 | greatest x, y, z |
-/// | 6 | x and y of the node's least corner, 2 bytes each, in units |
-/// | 7 | z of it; 4 bits each: logarithms of the step along x, y, z |
-/// | 8 | where the leaves among the children end in the node's range of the list of ids |
+/// | 6 | (of all children) the least corner in units, 2 bytes a coordinate; logarithms of the steps, 4 bits each |
+/// | 7 | where its ids end, counted from where the node's ids begin |
 ///
-/// Leaves come first; a child of which the range is empty is another node, or nothing when its box
-/// is empty.
-pub(super) type Node = [u32; 9];
+/// Leaves come first. A child whose ids end where they begin is a node, or nothing when its box is
+/// empty.
+pub(super) type Node = [[u8; WIDTH]; ROWS];
 
-/// Packs a node. `children` are their boxes; `ends` the ends of leaves.
-pub(super) fn pack(whole: Bounds, children: [Bounds; WIDTH], ends: [u8; WIDTH]) -> Node {
+/// Packs a node: boxes of the children, rounded outwards to steps, and the ends of their ids.
+pub(super) fn pack(children: [Bounds; WIDTH], ends: [u8; WIDTH]) -> Node {
+    let whole = children.iter().fold(Bounds::EMPTY, |all, child| all.union(*child));
     let ([x, y, z], [hx, hy, hz]) = (whole.lo, whole.hi);
-    // The least power of two of which 255 cover the extent.
-    let shift = |lo: u16, hi: u16| {
-        let steps = u32::from(hi.saturating_sub(lo)).div_ceil(255);
-        steps.next_power_of_two().trailing_zeros()
-    };
-    let (sx, sy, sz) = (shift(x, hx), shift(y, hy), shift(z, hz));
-    let down = |at: u16, from: u16, shift: u32| (at.saturating_sub(from) >> shift) as u8;
-    let up = |at: u16, from: u16, shift: u32| {
-        let at = u32::from(at.saturating_sub(from));
-        (at.div_ceil(1 << shift)) as u8
-    };
-    let lo = children.map(|child| {
-        let [cx, cy, cz] = child.lo;
-        (down(cx, x, sx), down(cy, y, sy), down(cz, z, sz))
-    });
-    let hi = children.map(|child| {
-        let [cx, cy, cz] = child.hi;
-        (up(cx, x, sx), up(cy, y, sy), up(cz, z, sz))
-    });
-    let word = u32::from_le_bytes;
+    let [cx, cy, cz] = [(x, hx), (y, hy), (z, hz)].map(|(lo, hi)| Scale::of(lo, hi));
+    let ([x0, x1], [y0, y1], [z0, z1]) = (x.to_le_bytes(), y.to_le_bytes(), z.to_le_bytes());
+    let [lo, hi] = [children.map(|child| child.lo), children.map(|child| child.hi)];
     [
-        word(lo.map(|c| c.0)),
-        word(lo.map(|c| c.1)),
-        word(lo.map(|c| c.2)),
-        word(hi.map(|c| c.0)),
-        word(hi.map(|c| c.1)),
-        word(hi.map(|c| c.2)),
-        u32::from(x) | u32::from(y) << 16,
-        u32::from(z) | sx << 16 | sy << 20 | sz << 24,
-        word(ends),
+        lo.map(|[x, _, _]| cx.down(x)),
+        lo.map(|[_, y, _]| cy.down(y)),
+        lo.map(|[_, _, z]| cz.down(z)),
+        hi.map(|[x, _, _]| cx.up(x)),
+        hi.map(|[_, y, _]| cy.up(y)),
+        hi.map(|[_, _, z]| cz.up(z)),
+        [x0, x1, y0, y1, z0, z1, cx.shift | cy.shift << 4, cz.shift],
+        ends,
     ]
 }
 
-/// Four numbers, one a child.
-type Four<R> = [R; WIDTH];
-
-fn zip<R: Copy>([a, b, c, d]: Four<R>, [e, f, g, h]: Four<R>, op: impl Fn(R, R) -> R) -> Four<R> {
-    [op(a, e), op(b, f), op(c, g), op(d, h)]
+/// Steps along an axis.
+#[derive(Clone, Copy)]
+struct Scale {
+    from: u16,
+    shift: u8,
 }
 
-/// What a processor's instruction computes; [`Real::max`] decides more than is needed here.
-fn greater<R: Real>(a: R, b: R) -> R {
-    if a > b { a } else { b }
+impl Scale {
+    /// The finest one of which 255 steps are enough.
+    fn of(lo: u16, hi: u16) -> Self {
+        let extent = hi.saturating_sub(lo);
+        let shift = (0..8).find(|shift| extent <= 255 << shift).unwrap_or(8);
+        Self { from: lo, shift }
+    }
+
+    /// 255 for the empty box.
+    fn down(self, at: u16) -> u8 {
+        (at.saturating_sub(self.from) >> self.shift).min(255) as u8
+    }
+
+    /// 0 for the empty box.
+    fn up(self, at: u16) -> u8 {
+        let steps = u32::from(at.saturating_sub(self.from)) + (1 << self.shift) - 1;
+        (steps >> self.shift) as u8
+    }
 }
 
-fn smaller<R: Real>(a: R, b: R) -> R {
-    if a < b { a } else { b }
-}
+/// A number a child.
+pub(super) type Wide<R> = [R; WIDTH];
 
-/// Where a ray enters and leaves the planes of four children along one axis.
-#[inline(always)]
-fn planes<R: Real>(
-    course: &Course<R>,
-    lo: u32,
-    hi: u32,
-    origin: u32,
-    shift: u32,
-) -> (Four<R>, Four<R>) {
-    let step = course.slope * R::from_i32(1 << shift);
-    let offset = course.offset + course.slope * R::from_i32(origin as i32);
-    let swapped = (lo ^ hi) & course.swap;
-    let at = |sides: u32| sides.to_le_bytes().map(|side| R::from_i32(side.into()) * step + offset);
-    (at(lo ^ swapped), at(hi ^ swapped))
-}
-
-/// Where a ray enters and leaves the boxes of the four children, between two parameters. A box that
-/// it passes by is left before it is entered.
-#[inline(always)]
+/// Where a ray enters and leaves the boxes of the eight children, between two parameters. A box
+/// that it passes by is left before it is entered.
+///
+/// T. L. Kay and J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986. Not inlined, and in
+/// fours: numbers that go to memory side by side are what makes compilers compute them side by
+/// side.
+#[inline(never)]
 pub(super) fn clip<R: Real>(
     node: &Node,
     [x, y, z]: &[Course<R>; 3],
     start: R,
     limit: R,
-) -> (Four<R>, Four<R>) {
-    let [lx, ly, lz, hx, hy, hz, xy, zs, _] = *node;
-    let (nx, fx) = planes(x, lx, hx, xy & 0xffff, zs >> 16 & 15);
-    let (ny, fy) = planes(y, ly, hy, xy >> 16, zs >> 20 & 15);
-    let (nz, fz) = planes(z, lz, hz, zs & 0xffff, zs >> 24 & 15);
-    let near = zip(zip(nx, ny, greater), zip(nz, [start; 4], greater), greater);
-    let far = zip(zip(fx, fy, smaller), zip(fz, [limit; 4], smaller), smaller);
+    near: &mut Wide<R>,
+    far: &mut Wide<R>,
+) {
+    let [.., [x0, x1, y0, y1, z0, z1, xy, shift_z], _] = node;
+    let slabs = [
+        Slabs::of(node, x, [*x0, *x1], xy & 15),
+        Slabs::of(node, y, [*y0, *y1], xy >> 4),
+        Slabs::of(node, z, [*z0, *z1], shift_z & 15),
+    ];
+    let (near_0, far_0) = clip_four::<0, R>(&slabs, start, limit);
+    let (near_4, far_4) = clip_four::<4, R>(&slabs, start, limit);
+    let join = |[a, b, c, d]: [R; 4], [e, f, g, h]: [R; 4]| [a, b, c, d, e, f, g, h];
+    *near = join(near_0, near_4);
+    *far = join(far_0, far_4);
+}
+
+/// The children's sides along one axis, seen by a ray.
+struct Slabs<'n, R> {
+    /// In steps: by which the ray enters, and by which it leaves.
+    near: &'n [u8; WIDTH],
+    far: &'n [u8; WIDTH],
+    /// The ray is at step `n` at the parameter `n * step + offset`.
+    step: R,
+    offset: R,
+}
+
+impl<'n, R: Real> Slabs<'n, R> {
+    #[inline(always)]
+    fn of(node: &'n Node, course: &Course<R>, origin: [u8; 2], shift: u8) -> Self {
+        let row = |row: usize| node.get(row % ROWS).unwrap_or(&[0; WIDTH]);
+        let origin = R::from_i32(u16::from_le_bytes(origin).into());
+        Self {
+            near: row(course.near),
+            far: row(course.far),
+            step: course.slope * R::from_i32(1 << shift),
+            offset: course.offset + course.slope * origin,
+        }
+    }
+
+    /// Four sides from `AT` on as parameters.
+    #[inline(always)]
+    fn four<const AT: usize>(&self, sides: &[u8; WIDTH]) -> [R; 4] {
+        let four = sides.get(AT..).and_then(|sides| sides.first_chunk()).unwrap_or(&[0; 4]);
+        four.map(|side| R::from_i32(side.into()) * self.step + self.offset)
+    }
+}
+
+/// [`clip`] for four children from `AT` on.
+#[inline(always)]
+fn clip_four<const AT: usize, R: Real>(
+    [x, y, z]: &[Slabs<'_, R>; 3],
+    start: R,
+    limit: R,
+) -> ([R; 4], [R; 4]) {
+    // As a processor's instruction does; `Real::max` and `min` decide more than is needed here.
+    let greater = |a: R, b: R| if a > b { a } else { b };
+    let smaller = |a: R, b: R| if a < b { a } else { b };
+    let near = zip(x.four::<AT>(x.near), y.four::<AT>(y.near), greater);
+    let near = zip(near, z.four::<AT>(z.near).map(|z| greater(z, start)), greater);
+    let far = zip(x.four::<AT>(x.far), y.four::<AT>(y.far), smaller);
+    let far = zip(far, z.four::<AT>(z.far).map(|z| smaller(z, limit)), smaller);
     (near, far)
+}
+
+#[inline(always)]
+fn zip<R: Copy>([a, b, c, d]: [R; 4], [e, f, g, h]: [R; 4], op: impl Fn(R, R) -> R) -> [R; 4] {
+    [op(a, e), op(b, f), op(c, g), op(d, h)]
 }

@@ -6,7 +6,8 @@
 
 use super::units::Bounds;
 
-/// Bins along an axis.
+/// Bins along an axis, of which at least half are used: their width is a power of two. A power of
+/// two itself. All bins of all axes take 768 bytes of the stack.
 const BINS: usize = 16;
 
 /// A cut across an axis.
@@ -16,7 +17,7 @@ pub(super) struct Cut {
     from: u32,
     shift: u32,
     bin: u32,
-    /// Boxes below and above.
+    /// The box of what lies below, and of the rest.
     pub(super) below: Bounds,
     pub(super) above: Bounds,
 }

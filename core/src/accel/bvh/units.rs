@@ -2,16 +2,16 @@
 //!
 //! A cube around the scene is divided into [`ALONG`] units along each axis. The box of a shape is
 //! rounded outwards to units once, when the tree is built; from there on everything about boxes is
-//! exact, the same on every target, and needs no floating point. Units of 16 bits are about as fine
-//! as what boxes are padded by in `f32`, so more digits would gain nothing.
+//! exact and needs no floating point. Units of 16 bits are about as fine as what boxes are padded by
+//! in `f32`, so more digits would gain nothing.
 
 use crate::accel::lattice;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, Real, Vec3, Vector};
 use crate::scene::{Scene, Shapes};
 
-/// Units along the longest axis of a scene. At most 255 times 256, so that every extent is at most
-/// 255 steps of a power of two up to 2^8.
+/// Units along the longest axis of a scene: less than 255 times 256, so that 255 steps of a power of
+/// two up to 2^8 are enough for every extent.
 const ALONG: i32 = 65_000;
 
 /// A closed box in units.
@@ -47,19 +47,24 @@ impl Bounds {
     }
 }
 
-/// The division of the room that a scene takes.
+/// The division of the room that a scene takes into units, as long along every axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units<R: Real> {
     origin: Vec3<R>,
+    /// A unit's length, and its reciprocal.
     unit: R,
     per_unit: R,
+    /// How far shapes reach beyond their boxes.
     pad: R,
 }
 
 impl<R: Real> Units<R> {
     pub(super) fn of<S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Self {
         let root = lattice::root(scene, 32, 32);
-        let along = root.size().max_abs();
+        // Of a small scene far away from the origin no coordinate is known that finely; 255 units
+        // are to be more than a rounding error, or rays would enter boxes that are empty.
+        let least = scene.bounds().max_abs() / R::from_i32(256);
+        let along = root.size().max_abs().max(least);
         let count = R::from_i32(ALONG);
         Self { origin: root.lo, unit: along / count, per_unit: count / along, pad: scene.pad() }
     }
@@ -74,31 +79,34 @@ impl<R: Real> Units<R> {
         Bounds { lo: units(bounds.lo).map(whole), hi: units(bounds.hi).map(|x| whole(x) + 1) }
     }
 
+    /// A ray seen along each of the three axes. Three divisions.
     pub(super) fn courses(&self, ray: &Ray<R>) -> [Course<R>; 3] {
-        // The steepest slope: across the scene a ray that is less inclined moves by less than a
-        // rounding error.
+        // A ray less inclined than that does not move along the axis: across the scene it would
+        // come by less than a rounding error. So nothing is infinite, and where a ray stays between
+        // two sides it enters and leaves them far beyond both ends of the scene.
         let steepest = R::ONE / (R::EPSILON * R::EPSILON);
         Axis::ALL.map(|axis| {
             let d = ray.direction().along(axis);
             let inverse = (R::ONE / d).abs();
-            // Also what is not a number or infinite.
+            // Neither is what is not a number.
             let inverse = if inverse < steepest { inverse } else { steepest };
             let backwards = d < R::ZERO;
             let inverse = if backwards { -inverse } else { inverse };
-            Course {
-                slope: self.unit * inverse,
-                offset: (self.origin.along(axis) - ray.origin().along(axis)) * inverse,
-                swap: if backwards { u32::MAX } else { 0 },
-            }
+            let (lo, hi) = (axis.index(), 3 + axis.index());
+            let (near, far) = if backwards { (hi, lo) } else { (lo, hi) };
+            let offset = (self.origin.along(axis) - ray.origin().along(axis)) * inverse;
+            Course { slope: self.unit * inverse, offset, near, far }
         })
     }
 }
 
-/// A ray's way along one axis, in units: it is at `x` at the parameter `slope * x + offset`.
+/// A ray's way along one axis: it is at `x` units at the parameter `slope * x + offset`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course<R> {
     pub(super) slope: R,
     pub(super) offset: R,
-    /// All bits set when the coordinate falls.
-    pub(super) swap: u32,
+    /// The row of a [`Node`](super::node::Node) with the sides by which it enters boxes.
+    pub(super) near: usize,
+    /// The one with the sides by which it leaves them.
+    pub(super) far: usize,
 }
