@@ -1,7 +1,7 @@
 //! From a scene and a number of bytes to a structure with its parameters, and the reason.
 
 use crate::accel::{self, BuildError, bvh, mailbox, octree};
-use crate::memory::{Footprint, OutOfArena};
+use crate::memory::OutOfArena;
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
 
@@ -122,7 +122,7 @@ pub fn plan<R: Real, S: Shapes<R>>(
         Some(structure) => (structure, Reason::Asked),
         None if wishes.resolution.is_some() => (Structure::Grid, Reason::Asked),
         None if wishes.asks_for_octree() => (Structure::Octree, Reason::Asked),
-        None => choose(scene, shapes, budget, wishes)?,
+        None => choose(scene, shapes, budget, wishes),
     };
     let mailbox = match (wishes.mailbox, structure) {
         (Some(mailbox), _) => mailbox,
@@ -154,7 +154,7 @@ fn fit<R: Real, S: Shapes<R>>(
         Structure::Naive => accel::Kind::Naive,
         Structure::Grid => accel::Kind::Grid(match wishes.resolution {
             Some(resolution) => resolution,
-            None => grid_for(scene, budget.saturating_sub(taken.kept))?,
+            None => grid_for(scene, budget.saturating_sub(taken.kept)),
         }),
         Structure::Octree => accel::Kind::Octree(octree::Settings {
             limits: octree::Limits {
@@ -174,13 +174,7 @@ fn fit<R: Real, S: Shapes<R>>(
             })
         }
     };
-    let least = match accel {
-        accel::Kind::Naive | accel::Kind::Grid(_) | accel::Kind::Bvh(_) => {
-            accel::Any::footprint(accel, scene)?
-        }
-        accel::Kind::Octree(settings) => root_of(scene, settings)?,
-    };
-    let needed = taken.then(least).peak;
+    let needed = taken.then(accel::Any::least(accel, scene)).peak;
     if needed > budget {
         return Err(OutOfArena { needed, available: budget }.into());
     }
@@ -193,18 +187,19 @@ fn choose<R: Real, S: Shapes<R>>(
     shapes: usize,
     budget: usize,
     wishes: &Wishes,
-) -> Result<(Structure, Reason), BuildError> {
+) -> (Structure, Reason) {
     if shapes <= FEW {
-        return Ok((Structure::Naive, Reason::FewShapes { shapes }));
+        return (Structure::Naive, Reason::FewShapes { shapes });
     }
     let mailbox = wishes.mailbox.unwrap_or(mailbox::Kind::Off).footprint(shapes);
     let limits = octree::Limits { max_objects: 0, max_level: 0 };
-    let needed = mailbox.then(root_of(scene, limits.into())?).peak;
-    Ok(if needed > budget {
+    let octree = accel::Kind::Octree(limits.into());
+    let needed = mailbox.then(accel::Any::least(octree, scene)).peak;
+    if needed > budget {
         (Structure::Naive, Reason::NoMemory { needed, available: budget })
     } else {
         (Structure::Octree, Reason::ManyShapes { shapes })
-    })
+    }
 }
 
 /// Stamps where they take no more than an eighth of the memory, otherwise the table of constant
@@ -218,26 +213,14 @@ fn mailbox_for(shapes: usize, budget: usize) -> mailbox::Kind {
 }
 
 /// The finest grid, of at most eight cells a shape, that fits.
-fn grid_for<R: Real, S: Shapes<R>>(
-    scene: &Scene<'_, R, S>,
-    room: usize,
-) -> Result<[u32; 3], BuildError> {
+fn grid_for<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, room: usize) -> [u32; 3] {
     let mut cells = scene.shapes().bounded().saturating_mul(8).max(1);
     loop {
         let resolution = accel::grid::resolution_for(scene, cells);
-        let footprint = accel::Any::footprint(accel::Kind::Grid(resolution), scene)?;
+        let footprint = accel::Any::least(accel::Kind::Grid(resolution), scene);
         if footprint.peak <= room || cells == 1 {
-            return Ok(resolution);
+            return resolution;
         }
         cells = cells / 2 + cells / 4;
     }
-}
-
-/// An octree that is a single cell.
-fn root_of<R: Real, S: Shapes<R>>(
-    scene: &Scene<'_, R, S>,
-    settings: octree::Settings,
-) -> Result<Footprint, BuildError> {
-    let limits = octree::Limits { max_level: 0, ..settings.limits };
-    accel::Any::footprint(accel::Kind::Octree(octree::Settings { limits, ..settings }), scene)
 }

@@ -8,7 +8,7 @@ const FIELDS = [
 ];
 
 export const REASON = { asked: 0, few: 1, noMemory: 2, many: 3 };
-export const STRUCTURE = ["none", "grid", "octree"];
+export const STRUCTURE = ["none", "grid", "octree", "hierarchy"];
 export const MAILBOX = ["off", "stamps", "cache"];
 export const STOPPED = ["done", "level", "memory"];
 

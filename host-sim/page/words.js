@@ -30,6 +30,10 @@ export function built(report) {
   if (kind === "grid") {
     return `A grid of ${report.nx} × ${report.ny} × ${report.nz} cells.`;
   }
+  if (kind === "hierarchy") {
+    const nodes = report.divided === 1 ? "node" : "nodes";
+    return `A hierarchy of bounding boxes: ${count(report.divided)} ${nodes}, up to four children each.`;
+  }
   const why = {
     done: "no cell has too many shapes",
     level: "cells cannot be smaller",

@@ -92,8 +92,20 @@ impl<'m, R: Real> Any<'m, R> {
         kind: Kind,
         scene: &Scene<'_, R, S>,
     ) -> Result<Footprint, BuildError> {
+        match kind {
+            Kind::Octree(settings) => AnyOctree::footprint(scene, settings),
+            kind => Ok(Self::least(kind, scene)),
+        }
+    }
+
+    /// The fewest bytes that [`Any::build`] takes: as [`Any::footprint`], but for an octree those of
+    /// a single cell. Links no code that divides cells.
+    pub fn least<S: Shapes<R>>(kind: Kind, scene: &Scene<'_, R, S>) -> Footprint {
         let shapes = scene.shapes().bounded();
-        Ok(match kind {
+        let narrow = shapes <= <u16 as Id>::MAX;
+        // A list of all shapes begins with its length.
+        let entries = shapes.saturating_add(usize::from(shapes > 0));
+        match kind {
             Kind::Naive => Footprint::default(),
             Kind::Grid(n) => {
                 let size = grid::size(scene, n);
@@ -103,10 +115,11 @@ impl<'m, R: Real> Any<'m, R> {
                     Width::Large => size.footprint::<u32, u32>(),
                 }
             }
-            Kind::Octree(settings) => AnyOctree::footprint(scene, settings)?,
-            Kind::Bvh(nodes) if shapes <= <u16 as Id>::MAX => bvh::footprint::<u16>(shapes, nodes),
+            Kind::Octree(_) if narrow => Footprint::of::<u16>(entries),
+            Kind::Octree(_) => Footprint::of::<u32>(entries),
+            Kind::Bvh(nodes) if narrow => bvh::footprint::<u16>(shapes, nodes),
             Kind::Bvh(nodes) => bvh::footprint::<u32>(shapes, nodes),
-        })
+        }
     }
 }
 
@@ -120,6 +133,26 @@ impl<R: Real> Accel<R> for Any<'_, R> {
             Self::Octree(octree) => octree.walk(ray, visitor),
             Self::Bvh(bvh) => bvh.walk(ray, visitor),
             Self::LargeBvh(bvh) => bvh.walk(ray, visitor),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accel::octree::Limits;
+    use crate::shape::Sphere;
+    use glam::Vec3;
+
+    #[test]
+    fn the_least_octree_is_its_root() {
+        static SPHERES: [Sphere<f32>; 65_536] = [Sphere::new(Vec3::ONE, 1.0); 65_536];
+        for shapes in [0, 1, 2, 1000, 65_535, 65_536] {
+            let scene = Scene::new(&SPHERES[..shapes]).unwrap();
+            let root = Kind::Octree(Limits { max_objects: 0, max_level: 0 }.into());
+            let footprint = Any::footprint(root, &scene).unwrap();
+            let deep = Kind::Octree(Limits { max_objects: 0, max_level: 9 }.into());
+            assert_eq!(Any::least(deep, &scene), footprint, "{shapes}");
         }
     }
 }

@@ -9,15 +9,14 @@ use std::process::Command;
 
 pub(crate) const TARGET: &str = "wasm32-unknown-unknown";
 
-/// One structure and one kind of shape. The aim is 20 KiB; the compiler orders and inlines functions
-/// by names that contain the folder of the checkout, which moves the size by up to 350 bytes: 20,155
-/// to 20,602 were measured.
-const LEAST_BYTES: u64 = 21 * 1024;
+/// One structure and one kind of shape. The compiler orders and inlines functions by names that contain
+/// the folder of the checkout, which moves the size by up to 350 bytes.
+const LEAST_BYTES: u64 = 20 * 1024;
 
-/// Three structures, three mailboxes, seven kinds of shapes, planning, counting, five scenes. The
-/// aim of 40 KiB is missed: two queries, each through three structures to seven kinds of shapes,
-/// are written out in code, and the scenes take 8 KiB.
-const PAGE_BYTES: u64 = 66 * 1024;
+/// Four structures, three mailboxes, seven kinds of shapes, planning, counting, five scenes. The aim of
+/// 40 KiB is missed: two queries, each through four structures to seven kinds of shapes, are written
+/// out in code, building a hierarchy takes 8 KiB, and the scenes take 8 KiB.
+const PAGE_BYTES: u64 = 78 * 1024;
 
 /// What these tests need.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! The structures with 16 bits a number: `kibiray::accel::Any` without those for scenes of more
 //! than 65,535 shapes, which the page has not got, in half the code.
 
-use kibiray::accel::{self, Accel, BuildError, Grid, Naive, Octree, Visitor};
+use kibiray::accel::{self, Accel, BuildError, Bvh, Grid, Naive, Octree, Visitor};
 use kibiray::geom::Ray;
 use kibiray::memory::Arena;
 use kibiray::scene::{Scene, Shapes};
@@ -10,6 +10,7 @@ pub(crate) enum Small<'m> {
     Naive(Naive),
     Grid(Grid<'m, f32, u16, u16>),
     Octree(Octree<'m, f32, u16>),
+    Bvh(Bvh<'m, f32, u16>),
 }
 
 impl<'m> Small<'m> {
@@ -24,6 +25,7 @@ impl<'m> Small<'m> {
             accel::Kind::Octree(settings) => {
                 Self::Octree(Octree::build(scene, settings.limits, arena)?)
             }
+            accel::Kind::Bvh(nodes) => Self::Bvh(Bvh::build(scene, nodes, arena)?),
         })
     }
 }
@@ -34,6 +36,7 @@ impl Accel<f32> for Small<'_> {
             Self::Naive(naive) => naive.walk(ray, visitor),
             Self::Grid(grid) => grid.walk(ray, visitor),
             Self::Octree(octree) => octree.walk(ray, visitor),
+            Self::Bvh(bvh) => bvh.walk(ray, visitor),
         }
     }
 }

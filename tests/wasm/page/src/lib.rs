@@ -126,7 +126,7 @@ pub extern "C" fn view(scene: u32) -> *const f32 {
     numbers.as_ptr()
 }
 
-/// Generates a scene and builds a structure (0 by the plan, 1 none, 2 grid, 3 octree) and a mailbox
+/// Generates a scene and builds a structure (0 by the plan, 1 none, 2 grid, 3 octree, 4 hierarchy) and a mailbox
 /// (0 by the plan, 1 off, 2 stamps, 3 cache) into an arena of so many bytes.
 ///
 /// Gives 0; 1 when the memory is too small, and the report says how many bytes it takes; 2 for
@@ -147,6 +147,7 @@ pub extern "C" fn select(scene: u32, structure: u32, mailbox: u32, ram: u32) -> 
             1 => Some(Structure::Naive),
             2 => Some(Structure::Grid),
             3 => Some(Structure::Octree),
+            4 => Some(Structure::Bvh),
             _ => None,
         },
         mailbox: match mailbox {

@@ -23,7 +23,7 @@ pub(crate) struct Report {
     high_water: f64,
     /// Bytes it would have to have, when it is too small.
     needed: f64,
-    /// 0 none, 1 grid, 2 octree.
+    /// 0 none, 1 grid, 2 octree, 3 hierarchy.
     structure: f64,
     /// 0 off, 1 stamps, 2 cache.
     mailbox: f64,
@@ -31,8 +31,9 @@ pub(crate) struct Report {
     reason: f64,
     /// Cells of a grid along each axis.
     resolution: [f64; 3],
-    /// Of an octree.
+    /// Divided cells of an octree, nodes of a hierarchy.
     divided: f64,
+    /// Of an octree.
     max_level: f64,
     /// 0 done, 1 by its level, 2 by memory.
     stopped_by: f64,
@@ -112,6 +113,10 @@ impl Report {
             Small::Grid(grid) => {
                 self.structure = 1.0;
                 self.resolution = grid.resolution().map(f64::from);
+            }
+            Small::Bvh(bvh) => {
+                self.structure = 3.0;
+                self.divided = bvh.nodes() as f64;
             }
             Small::Octree(octree) => {
                 self.structure = 2.0;
