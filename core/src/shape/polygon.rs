@@ -12,7 +12,7 @@ use super::{Shape, ShapeError, Shear, settle, workable};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
-/// A planar polygon of at least three corners; 20 bytes in `f32` where pointers have 32 bits, and
+/// A planar polygon of at least three corners; 44 bytes in `f32` where pointers have 32 bits, and
 /// the corners, which it borrows and which may lie in flash.
 ///
 /// Its front is the side from which the corners run anticlockwise. The outline may be concave; where
@@ -20,50 +20,58 @@ use crate::num::{Real, Vec3, Vector};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Polygon<'a, R: Real> {
-    /// The corners in order; the last is joined to the first.
-    pub vertices: &'a [R::Vec3],
-    /// A vector across its plane, of any length but 0, towards the front.
-    pub normal: R::Vec3,
+    vertices: &'a [R::Vec3],
+    normal: R::Vec3,
+    /// Kept, because the outline may be long.
+    bounds: Aabb<R>,
 }
 
 impl<'a, R: Real> Polygon<'a, R> {
     /// A polygon around corners. Its normal is 0 where they span no area ([`Shape::check`] refuses
     /// that), and else has a greatest component of 1 to 2.
     pub fn new(vertices: &'a [R::Vec3]) -> Self {
+        let bounds = Aabb::around(vertices.iter().copied());
         let size = match vertices.first() {
             Some(first) => vertices.iter().fold(R::ZERO, |m, v| m.max((*v - *first).max_abs())),
             None => R::ZERO,
         };
         if !(size > R::ZERO) {
-            return Self { vertices, normal: Vec3::<R>::default() };
+            return Self { vertices, normal: Vec3::<R>::default(), bounds };
         }
         // Scaled before the products, so that tiny polygons keep theirs.
         let area = newell::<R>(vertices, size.scale_to_one().0);
         let size = area.max_abs();
         let normal = if size > R::ZERO { area * size.scale_to_one().0 } else { area };
-        Self { vertices, normal }
+        Self { vertices, normal, bounds }
     }
 
-    /// A polygon with a normal known beforehand; for constants.
-    pub const fn with_normal(vertices: &'a [R::Vec3], normal: R::Vec3) -> Self {
-        Self { vertices, normal }
+    /// A polygon with what [`Polygon::new`] would compute, for constants: a vector across its plane, of
+    /// any length but 0, towards the front, and the smallest box around its corners. Where that is
+    /// another one, [`Shape::check`] refuses the polygon.
+    pub const fn of_parts(vertices: &'a [R::Vec3], normal: R::Vec3, bounds: Aabb<R>) -> Self {
+        Self { vertices, normal, bounds }
+    }
+
+    /// The corners in order; the last is joined to the first.
+    pub fn vertices(&self) -> &'a [R::Vec3] {
+        self.vertices
     }
 
     /// Whether the line of the ray passes through it.
     fn surrounds(&self, shear: &Shear<R>) -> bool {
-        let Some(last) = self.vertices.last() else { return false };
-        let mut a = shear.apply(last);
+        let Some(mut a) = self.vertices.last() else { return false };
+        let mut was_above = shear.second(a) > R::ZERO;
         let mut inside = false;
-        for corner in self.vertices {
-            let b = shear.apply(corner);
+        for b in self.vertices {
             // One end above, the other not: does the edge cross to the right of the ray? On the ray
             // is not to the right, so an edge belongs to what lies to its right.
-            let (above, was_above) = (b.1 > R::ZERO, a.1 > R::ZERO);
+            let above = shear.second(b) > R::ZERO;
             if above != was_above {
-                let side = if above { edge::<R>(a, b) } else { edge::<R>(b, a) };
+                let (lower, upper) = if above { (a, b) } else { (b, a) };
+                let side = edge::<R>(shear.apply(lower), shear.apply(upper));
                 inside ^= side > R::Wide::default();
             }
-            a = b;
+            (a, was_above) = (b, above);
         }
         inside
     }
@@ -93,11 +101,13 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
 
     fn check(&self) -> Result<(), ShapeError> {
         let n = self.normal;
+        let bounds = Aabb::around(self.vertices.iter().copied());
         if self.vertices.len() < 3 {
             Err(ShapeError::TooFewCorners)
         } else if !(self.vertices.iter().all(|c| c.is_finite())
             && n.is_finite()
-            && workable(self.bounds().max_abs())
+            && workable(bounds.max_abs())
+            && bounds == self.bounds
             && workable(n.max_abs()))
         {
             Err(ShapeError::NotFinite)
@@ -112,20 +122,16 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
     }
 
     fn bounds(&self) -> Aabb<R> {
-        Aabb::around(self.vertices.iter().copied())
+        self.bounds
     }
 
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        // The outline comes first although `t` is cheaper: to trust `t` takes the box, and that is
-        // as long a loop.
-        if !self.surrounds(shear) {
-            return None;
-        }
         let first = *self.vertices.first()?;
         let n = self.normal;
         let t = R::ratio(n.dot(first - ray.origin()), n.dot(ray.direction()));
-        let t = settle(ray, self.bounds(), t)?;
-        (t > min && t <= max).then_some(t)
+        let t = settle(ray, self.bounds, t)?;
+        // The outline comes last, because it is the longest.
+        (t > min && t <= max && self.surrounds(shear)).then_some(t)
     }
 
     fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {
@@ -386,12 +392,16 @@ mod tests {
         assert_eq!(d(&[Vec3::ZERO, Vec3::X, Vec3::X * 3.0]), Err(ShapeError::Degenerate));
         assert_eq!(d(&[Vec3::ZERO, Vec3::X, Vec3::NAN]), Err(ShapeError::NotFinite));
         assert_eq!(d(&[Vec3::ZERO, Vec3::X * 1e13, Vec3::Y]), Err(ShapeError::NotFinite));
-        let with = |n| Polygon::<f32>::with_normal(&L, n).check();
+        let bounds = Polygon::<f32>::new(&L).bounds();
+        let with = |n| Polygon::<f32>::of_parts(&L, n, bounds).check();
         assert_eq!(with(Vec3::ZERO), Err(ShapeError::NotUnit));
         assert_eq!(with(Vec3::NAN), Err(ShapeError::NotFinite));
         assert_eq!(with(Vec3::Z), Ok(()));
+        let wrong = Polygon::<f32>::of_parts(&L, Vec3::Z, bounds.grown(1.0));
+        assert_eq!(wrong.check(), Err(ShapeError::NotFinite));
         // Even so it is only a miss, not a panic.
         assert!(all_hits(&Polygon::<f32>::new(&[]), &down(0.0, 0.0)).is_empty());
-        assert!(all_hits(&Polygon::<f32>::with_normal(&L, Vec3::ZERO), &down(0.5, 0.5)).is_empty());
+        let flat = Polygon::<f32>::of_parts(&L, Vec3::ZERO, bounds);
+        assert!(all_hits(&flat, &down(0.5, 0.5)).is_empty());
     }
 }

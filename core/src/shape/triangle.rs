@@ -89,6 +89,13 @@ impl<R: Real> Shear<R> {
         let (x, y) = (point.pick(u) - x, point.pick(v) - y);
         (x - self.slope.0 * z, y - self.slope.1 * z, self.scale * z)
     }
+
+    /// The second of these coordinates alone.
+    #[inline]
+    pub(crate) fn second(&self, point: &Vec3<R>) -> R {
+        let ([_, v, w], [_, y, z]) = (self.axes, self.origin);
+        (point.pick(v) - y) - self.slope.1 * (point.pick(w) - z)
+    }
 }
 
 /// Twice the signed area of the triangle from the origin to two sheared points.

@@ -63,7 +63,7 @@ impl Store {
             + size_of_val(&*self.triangles)
             + size_of_val(&*self.normals)
             + size_of_val(&*self.polygons)
-            + self.polygons.iter().map(|polygon| size_of_val(polygon.vertices)).sum::<usize>()
+            + self.polygons.iter().map(|polygon| size_of_val(polygon.vertices())).sum::<usize>()
             + size_of_val(&*self.boxes)
             + size_of_val(&*self.cylinders)
             + size_of_val(&*self.cones)
