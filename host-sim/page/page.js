@@ -172,8 +172,10 @@ function start(engine) {
         canvas.focus();
       },
     };
-    rows($("parts"), [["needed", bytes(report.needed)], ["there", bytes(ram)]]);
-    const text = `${what} takes ${count(report.needed)} bytes with its mailbox; the budget is ${count(ram)}.`;
+    rows($("parts"), [["needed", `${count(report.needed)} B`], ["there", `${count(ram)} B`]]);
+    const mailbox = ["stamps", "cache"].includes(MAILBOX[Number($("mailbox").value) - 1]);
+    const whole = mailbox && kind !== undefined ? `${what}, with its mailbox,` : what;
+    const text = `${whole} takes ${count(report.needed)} bytes; the budget is ${count(ram)}.`;
     say("The budget is too small", text, fits ? act : undefined);
   }
 

@@ -32,7 +32,7 @@ export function built(report) {
   }
   if (kind === "hierarchy") {
     const nodes = report.divided === 1 ? "node" : "nodes";
-    return `A hierarchy of bounding boxes: ${count(report.divided)} ${nodes}, up to four children each.`;
+    return `A hierarchy of bounding boxes: ${count(report.divided)} ${nodes}.`;
   }
   const why = {
     done: "no cell has too many shapes",

@@ -104,6 +104,13 @@ fn budget(browser: &Browser) -> Result<()> {
     let report_now = browser.text(report)?;
     ensure!(report_now != first, "another budget, the same report: {first}");
 
+    // Grid and hierarchy.
+    for structure in [2, 4] {
+        set(browser, "structure", structure)?;
+        let other = done(browser)?;
+        ensure!(other == sum, "structure {structure}, another picture: {sum}, {other}");
+    }
+
     // By the plan everything goes without memory; an octree does not.
     set(browser, "structure", 3)?;
     done(browser)?;
