@@ -10,6 +10,8 @@ pub mod description;
 pub mod engine;
 pub mod image;
 pub mod options;
+pub mod picture;
+pub mod plot;
 pub mod rays;
 pub mod report;
 pub mod tables;

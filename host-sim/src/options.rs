@@ -20,6 +20,7 @@ Examples:
   host-sim render spd:gears --accel grid --heatmap heat.png
   host-sim stats spd:balls --accel octree --max-objects 4
   host-sim trace room.nff --rays in.csv --hits out.csv
+  host-sim sweep spd:balls --ram 4KiB..256KiB    how much memory is worth having, into balls.svg
   host-sim scene tetra:3 > tetra.nff
 
 A SCENE is
@@ -50,6 +51,8 @@ pub enum Command {
     /// Answer ray queries from a CSV file
     #[command(after_help = TRACE_HELP)]
     Trace(Trace),
+    /// Render a scene in less and more memory, and plot what that costs
+    Sweep(Sweep),
     /// Print a generated scene as NFF
     Scene {
         /// NAME or NAME:SIZE, as in `tetra:3`
@@ -97,6 +100,10 @@ pub struct Render {
     /// Also draw the work of every pixel (tests and traversal steps) as colours
     #[arg(long, value_name = "FILE")]
     pub heatmap: Option<PathBuf>,
+    /// The arena: structure, mailboxes and build scratch fit in so many bytes (12345, 16KiB, 1MiB)
+    /// [default: 256KiB]
+    #[arg(long, value_name = "SIZE", value_parser = values::bytes)]
+    pub ram: Option<usize>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub common: Common,
@@ -111,6 +118,10 @@ pub struct Stats {
     /// pictures, depth 5, a mirrored ray from all that mirrors or transmits
     #[arg(long, value_enum, default_value_t = RaySet::Spd)]
     pub rays: RaySet,
+    /// The arena: structure, mailboxes and build scratch fit in so many bytes (12345, 16KiB, 1MiB)
+    /// [default: 256KiB]
+    #[arg(long, value_name = "SIZE", value_parser = values::bytes)]
+    pub ram: Option<usize>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub common: Common,
@@ -130,6 +141,30 @@ pub struct Trace {
     /// Only ask whether anything is hit
     #[arg(long)]
     pub any: bool,
+    /// The arena: structure, mailboxes and build scratch fit in so many bytes (12345, 16KiB, 1MiB)
+    /// [default: 256KiB]
+    #[arg(long, value_name = "SIZE", value_parser = values::bytes)]
+    pub ram: Option<usize>,
+    #[command(flatten)]
+    #[allow(missing_docs)]
+    pub common: Common,
+}
+
+/// `sweep`.
+#[derive(Clone, Debug, Args)]
+pub struct Sweep {
+    /// What to render
+    pub scene: String,
+    /// Least and most memory; every size is twice the one before
+    #[arg(long, value_name = "SIZE..SIZE", default_value = "1KiB..1MiB")]
+    #[arg(value_parser = values::bytes_range)]
+    pub ram: (usize, usize),
+    /// Pixels
+    #[arg(long, value_name = "WxH", default_value = "128x128", value_parser = values::size)]
+    pub size: (u16, u16),
+    /// The plot, an SVG [default: the scene's name]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub common: Common,
@@ -153,10 +188,6 @@ pub struct Common {
     /// The acceleration structure; `auto`: what the plan finds best
     #[arg(long, value_enum, default_value_t = AccelKind::Auto)]
     pub accel: AccelKind,
-    /// The arena: structure, mailboxes and build scratch fit in so many bytes (12345, 16KiB, 1MiB)
-    /// [default: 256KiB]
-    #[arg(long, value_name = "SIZE", value_parser = values::bytes)]
-    pub ram: Option<usize>,
     /// The numbers to compute in
     #[arg(long, value_enum, default_value_t = Number::F32)]
     pub num: Number,

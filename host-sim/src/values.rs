@@ -31,6 +31,17 @@ pub fn bytes(text: &str) -> Result<usize, String> {
     bytes.filter(|bytes| *bytes <= MOST_BYTES).ok_or_else(|| "at most 16GiB".into())
 }
 
+/// `1KiB..1MiB`.
+///
+/// # Errors
+/// One line that says what is expected.
+pub fn bytes_range(text: &str) -> Result<(usize, usize), String> {
+    let wrong = || "give the least and the most memory, as in 1KiB..1MiB".to_owned();
+    let (least, most) = text.split_once("..").ok_or_else(wrong)?;
+    let (least, most) = (bytes(least)?, bytes(most)?);
+    if least == 0 || least > most { Err(wrong()) } else { Ok((least, most)) }
+}
+
 /// `WxH`.
 ///
 /// # Errors

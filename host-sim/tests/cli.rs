@@ -77,6 +77,8 @@ fn wrong_usage_is_status_2() {
         "render spd:tetra:1 --max-depth 17",
         "render spd:tetra:1 --accel bvh",
         "render spd:tetra:1 --num f16",
+        "sweep spd:tetra:1 --ram 4KiB",
+        "sweep spd:tetra:1 --ram 4KiB..1KiB",
         "render spd:tetra:1 --aa 0",
         "render spd:tetra:1 --aa 17",
         "render spd:tetra:1 --aa adaptive:2",
@@ -348,6 +350,32 @@ fn smooth_pictures_are_the_same_with_any_threads_and_cost_more_rays() {
     assert_eq!(message, "too little memory: 784 bytes needed, 783 bytes there; give --ram 784");
     let faint = report("--cutoff 1");
     assert_eq!(faint["rays"]["secondary"].as_u64(), Some(0));
+}
+
+#[test]
+fn a_sweep_says_how_much_memory_is_worth_having() {
+    let folder = folder(&[]);
+    let swept = |options: &str| {
+        let arguments = format!("sweep spd:tetra:3 --size 16x16 --json - {options}");
+        json(&run_in(folder.path(), &arguments.split_whitespace().collect::<Vec<_>>()))
+    };
+    let all = swept("--ram 1KiB..16KiB");
+    let rows = all["rows"].as_array().unwrap();
+    let rams: Vec<_> = rows.iter().map(|row| row["ram"].as_u64().unwrap()).collect();
+    assert_eq!(rams, [1024, 2048, 4096, 8192, 16384]);
+    assert!(rams.contains(&all["knee_ram"].as_u64().unwrap()));
+    let tests = |row: &Value| row["work"]["primitive_tests"].as_u64().unwrap();
+    assert!(tests(&rows[4]) < tests(&rows[0]) / 2);
+    for row in rows {
+        assert!(row["memory"]["high_water_bytes"].as_u64() <= row["ram"].as_u64());
+        assert_eq!(row["rays"], rows[0]["rays"]);
+    }
+    let plot = std::fs::read_to_string(folder.path().join("tetra.svg")).unwrap();
+    assert!(plot.starts_with("<svg") && plot.contains("knee"));
+    // What has no room is a row without a report.
+    let octree = swept("--ram 64..8192 --accel octree");
+    let rows = octree["rows"].as_array().unwrap();
+    assert!(rows[0].get("work").is_none() && rows[7].get("work").is_some(), "{octree}");
 }
 
 #[test]

@@ -5,14 +5,16 @@ mod scenes;
 mod serve;
 mod stage;
 mod stats;
+mod sweep;
 mod trace;
 
-use std::io::{self, Write};
-use std::path::Path;
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context;
 use clap::Parser;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::options::{Cli, Command};
 use crate::values::is_dash;
@@ -36,6 +38,7 @@ pub fn main() -> ExitCode {
         Some(Command::Render(options)) => render::run(Some(options)),
         Some(Command::Stats(options)) => stats::run(&options),
         Some(Command::Trace(options)) => trace::run(&options),
+        Some(Command::Sweep(options)) => sweep::run(&options),
         Some(Command::Scene { name }) => scenes::print(&name),
         Some(Command::Scenes) => scenes::list(),
         Some(Command::Serve(options)) => serve::run(&options),
@@ -87,4 +90,25 @@ fn check_folder(path: &Path) -> anyhow::Result<()> {
 /// A path in a message.
 fn shown(path: &Path) -> String {
     path.to_string_lossy().escape_debug().to_string()
+}
+
+/// A bar on the terminal, if there is one; `of`: what is counted.
+fn progress(length: u64, of: &str) -> ProgressBar {
+    if !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let target = ProgressDrawTarget::stderr_with_hz(10);
+    let bar = ProgressBar::with_draw_target(Some(length), target);
+    match ProgressStyle::with_template(&format!("{of} {{bar:40}} {{pos}}/{{len}}, {{eta}} left")) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+/// `tetra` for `spd:tetra:3` and for `scenes/tetra.nff`: what files are called by default.
+fn named_after(scene: &str) -> PathBuf {
+    match scene.strip_prefix("spd:") {
+        Some(spec) => spec.split(':').next().unwrap_or(spec).into(),
+        None => Path::new(scene).file_stem().unwrap_or(scene.as_ref()).into(),
+    }
 }

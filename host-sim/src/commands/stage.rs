@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use anyhow::Context;
 use kibiray::accel::BuildError;
+use kibiray::memory::OutOfArena;
 use kibiray::num::Real;
 use kibiray::probe::Counters;
 use kibiray::scene::{Scene, Solids};
@@ -112,14 +113,25 @@ fn number_name(num: Number) -> &'static str {
     }
 }
 
+/// The arena has no room for what was asked for.
+#[derive(Debug)]
+pub(super) struct TooLittle(OutOfArena);
+
+impl std::fmt::Display for TooLittle {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let OutOfArena { needed, available } = self.0;
+        write!(
+            f,
+            "too little memory: {needed} bytes needed, {available} bytes there; give --ram {needed}"
+        )
+    }
+}
+
+impl std::error::Error for TooLittle {}
+
 fn build_error(error: &BuildError) -> anyhow::Error {
     match error {
-        BuildError::Memory(memory) => anyhow::anyhow!(
-            "too little memory: {} bytes needed, {} bytes there; give --ram {}",
-            memory.needed,
-            memory.available,
-            memory.needed
-        ),
+        BuildError::Memory(memory) => TooLittle(*memory).into(),
         error => anyhow::anyhow!("{error}"),
     }
 }

@@ -16,7 +16,7 @@ const CORNERS: i32 = 513;
 pub(super) fn run(options: &Stats) -> anyhow::Result<()> {
     let options = &Stats { common: options.common.clone().as_published(), ..options.clone() };
     let loaded = stage::open(&options.scene, &options.common)?;
-    let ram = options.common.ram.unwrap_or(DEFAULT_RAM);
+    let ram = options.ram.unwrap_or(DEFAULT_RAM);
     match options.common.num {
         Number::F64 => {
             stage::set::<f64>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))

@@ -24,7 +24,7 @@ pub(super) fn run(options: &Trace) -> anyhow::Result<()> {
     }
     super::check_folder(&options.hits)?;
     let loaded = stage::open(&options.scene, &options.common)?;
-    let ram = options.common.ram.unwrap_or(DEFAULT_RAM);
+    let ram = options.ram.unwrap_or(DEFAULT_RAM);
     match options.common.num {
         Number::F64 => {
             stage::set::<f64>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
