@@ -75,7 +75,7 @@ fn wrong_usage_is_status_2() {
         "render spd:tetra:1 --size 65535x65535",
         "render spd:tetra:1 --max-depth 0",
         "render spd:tetra:1 --max-depth 17",
-        "render spd:tetra:1 --accel bvh",
+        "render spd:tetra:1 --accel bsp",
         "render spd:tetra:1 --num f16",
         "sweep spd:tetra:1 --ram 4KiB",
         "sweep spd:tetra:1 --ram 4KiB..1KiB",
