@@ -1,9 +1,9 @@
-//! Two pages of 64 KiB that cannot grow, the stack in their first 8 KiB: what overflows it traps.
+//! Four pages of 64 KiB that cannot grow, the stack in their first 8 KiB: what overflows it traps.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     for argument in
-        ["-zstack-size=8192", "--stack-first", "--initial-memory=131072", "--max-memory=131072"]
+        ["-zstack-size=8192", "--stack-first", "--initial-memory=262144", "--max-memory=262144"]
     {
         println!("cargo::rustc-link-arg-cdylib={argument}");
     }

@@ -15,6 +15,7 @@
 pub mod block;
 pub mod clock;
 pub mod console;
+pub mod cost;
 pub mod machine;
 pub mod report;
 pub mod run;

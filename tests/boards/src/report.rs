@@ -1,7 +1,7 @@
 //! The line of JSON that a program prints.
 
 use crate::console::Console;
-use crate::machine;
+use crate::{machine, stack};
 use kibiray::accel::octree::StoppedBy;
 use kibiray::memory::Part;
 use semihosting::process;
@@ -109,6 +109,7 @@ pub fn print(report: &Report<'_>) {
     }
     json.0.text(if report.arena.parts.is_empty() { "[]}" } else { "}]}" });
     json.number("stack_bytes", report.stack as u64);
+    json.number("stack_capacity", stack::capacity() as u64);
     json.number("instr_per_pixel", report.per_pixel);
     json.number("instr_per_nearest", report.per_nearest);
     json.number("instr_per_any", report.per_any);

@@ -5,10 +5,10 @@ use crate::clock::{self, Stopwatch};
 use crate::report::{ArenaUse, Report};
 use crate::{report, stack};
 use kibiray::accel::octree::StoppedBy;
-use kibiray::accel::{Accel, mailbox};
+use kibiray::accel::{Accel, Mailbox, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
-use kibiray::scene::{Camera, Scene};
+use kibiray::scene::{Camera, Scene, SceneError, Shapes};
 use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Crc32, Plain, Row, Structure, Subject, answer};
 use semihosting::process;
@@ -37,18 +37,39 @@ pub fn run<const ARENA: usize, const ROW: usize>(
 #[inline(never)]
 pub fn subject<S: Subject>(memory: &mut [u8], row: &mut [u8]) -> Result<(), &'static str> {
     let mut arena = Arena::new(memory);
-    let scene = S::scene().map_err(|_| "the scene is refused")?;
+    let scene = scene::<S>().map_err(|_| "the scene is refused")?;
     let mut build = Stopwatch::default();
     let accel =
         build.time(|| S::Structure::build(&scene, &mut arena)).map_err(|_| "no structure")?;
-    let (image_crc32, per_pixel) = picture::<S>(&scene, &accel, row)?;
-    let (hits_crc32, per_nearest, per_any) = queries::<S>(&scene, &accel);
+    let mailbox = S::Structure::mailbox(scene.shapes().count(), &mut arena);
+    let mailbox = mailbox.map_err(|_| "no mailbox")?;
+    let image = picture::<S>(&scene, &accel, row)?;
+    let hits = queries::<S>(&scene, &accel, mailbox);
+    print::<S>(&arena, S::Structure::stopped_by(&accel), build, image, hits)
+}
+
+// The next two have frames of their own, so that what they need for a moment does not stay on the
+// stack while rays are traced.
+
+#[inline(never)]
+fn scene<S: Subject>() -> Result<Scene<'static, f32, S::Shapes>, SceneError> {
+    S::scene()
+}
+
+#[inline(never)]
+fn print<S: Subject>(
+    arena: &Arena<'_>,
+    stopped_by: StoppedBy,
+    build: Stopwatch,
+    (image_crc32, per_pixel): (u32, u64),
+    (hits_crc32, per_nearest, per_any): (u32, u64, u64),
+) -> Result<(), &'static str> {
     report::print(&Report {
         scene: S::NAME,
         structure: S::Structure::NAME,
         image_crc32,
         hits_crc32,
-        stopped_by: S::Structure::stopped_by(&accel),
+        stopped_by,
         arena: ArenaUse {
             capacity: arena.capacity(),
             used: arena.used(),
@@ -73,6 +94,9 @@ fn picture<S: Subject>(
     row: &mut [u8],
 ) -> Result<(u32, u64), &'static str> {
     let (width, height) = S::SIZE;
+    if height == 0 {
+        return Ok((0, 0));
+    }
     let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height));
     let camera = camera.map_err(|_| "no camera")?;
     let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
@@ -94,15 +118,15 @@ fn picture<S: Subject>(
 fn queries<S: Subject>(
     scene: &Scene<'_, f32, S::Shapes>,
     accel: &impl Accel<f32>,
+    mut mailbox: impl Mailbox,
 ) -> (u32, u64, u64) {
     let (mut sum, mut rays) = (Crc32::new(), 0_u64);
     let (mut nearest, mut any) = (Stopwatch::default(), Stopwatch::default());
-    let mut off = mailbox::Off;
     for shot in S::rays() {
         let hit =
-            nearest.time(|| accel.nearest(scene, &shot.ray, Interval::RAY, &mut off, &mut ()));
+            nearest.time(|| accel.nearest(scene, &shot.ray, Interval::RAY, &mut mailbox, &mut ()));
         let blocked =
-            any.time(|| accel.occluded(scene, &shot.ray, shot.between, &mut off, &mut ()));
+            any.time(|| accel.occluded(scene, &shot.ray, shot.between, &mut mailbox, &mut ()));
         sum.update(&answer(hit, blocked));
         rays += 1;
     }

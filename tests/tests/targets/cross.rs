@@ -48,13 +48,24 @@ pub(crate) fn without_flags(command: &mut Command) -> &mut Command {
     command
 }
 
-/// Builds a package for a target, without std and without alloc. Gives the folder that it lies in,
-/// which stays as it is as long as the guard is held.
+/// Builds all of a package for a target, without std and without alloc. Gives the folder that it lies
+/// in, which stays as it is as long as the guard is held.
 pub(crate) fn build(
     tools: &Tools,
     package: &str,
     target: &str,
     machine: &str,
+) -> Result<(PathBuf, MutexGuard<'static, ()>)> {
+    build_programs(tools, package, target, machine, &[])
+}
+
+/// Builds some of a package's programs, or all of the package where none is named.
+pub(crate) fn build_programs(
+    tools: &Tools,
+    package: &str,
+    target: &str,
+    machine: &str,
+    programs: &[String],
 ) -> Result<(PathBuf, MutexGuard<'static, ()>)> {
     let guard = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = target_dir();
@@ -63,6 +74,7 @@ pub(crate) fn build(
     let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
     command
         .args(["build", "--release", "--locked", "-Z", "build-std=core", "--target", target])
+        .args(programs.iter().flat_map(|program| ["--bin", program]))
         .current_dir(source(package))
         .env("MACHINE", machine)
         .env("RUSTC", &tools.rustc)

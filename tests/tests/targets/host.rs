@@ -9,7 +9,7 @@ use kibiray::accel::octree::StoppedBy;
 use kibiray::accel::{Accel, Naive, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
-use kibiray::scene::{Camera, Scene};
+use kibiray::scene::{Camera, Scene, Shapes};
 use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Card, Plain, Structure, Subject, answer};
 use serde::Deserialize;
@@ -58,6 +58,9 @@ fn picture<S: Subject>(
     accel: &impl Accel<f32>,
 ) -> Result<Vec<u8>> {
     let (width, height) = S::SIZE;
+    if height == 0 {
+        return Ok(Vec::new());
+    }
     let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height))?;
     let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
     let tracer = Tracer::new(scene, accel, mailbox::Off, settings);
@@ -132,8 +135,8 @@ pub(crate) fn plain_is_the_card() -> Result<()> {
 /// Bytes of an arena that go by a name.
 #[derive(Debug, Deserialize, PartialEq)]
 pub(crate) struct Part {
-    name: String,
-    bytes: usize,
+    pub(crate) name: String,
+    pub(crate) bytes: usize,
 }
 
 /// How an arena is used.
@@ -145,7 +148,8 @@ pub(crate) struct Memory {
     pub(crate) used: usize,
     /// Most bytes that were taken.
     pub(crate) high_water: usize,
-    parts: Vec<Part>,
+    /// What for.
+    pub(crate) parts: Vec<Part>,
 }
 
 /// Builds a subject's structure in an arena and does something with it.
@@ -161,6 +165,7 @@ fn with_structure<S: Subject, T>(
     let mut arena = Arena::new(memory.bytes(capacity));
     let scene = S::scene()?;
     let built = S::Structure::build(&scene, &mut arena)?;
+    S::Structure::mailbox(scene.shapes().count(), &mut arena)?;
     work(&scene, &built, &arena)
 }
 

@@ -9,6 +9,8 @@ use std::path::Path;
 #[derive(Debug)]
 pub(crate) struct Image {
     symbols: Vec<String>,
+    /// Names of functions, inlined ones too, one after the other with zeros between.
+    names: Vec<u8>,
     flash: u64,
     ram: u64,
 }
@@ -35,7 +37,8 @@ impl Image {
                 ram += section.size();
             }
         }
-        Ok(Self { symbols, flash, ram })
+        let names = file.section_by_name(".debug_str").context("names for debuggers")?;
+        Ok(Self { symbols, names: names.data()?.to_vec(), flash, ram })
     }
 
     /// Bytes of code, constants and initial values.
@@ -52,6 +55,17 @@ impl Image {
     fn with(&self, parts: &[&str]) -> Vec<&String> {
         let contains = |name: &&String| parts.iter().any(|part| name.contains(part));
         self.symbols.iter().filter(contains).collect()
+    }
+
+    /// Whether there is code of a module of the library, such as `["shape", "triangle"]`: a function
+    /// that is linked or has been inlined. Their mangled names say where they come from.
+    pub(crate) fn has_code_of(&self, path: [&str; 2]) -> bool {
+        let mangled = path.map(|name| format!("{}{name}", name.len())).concat();
+        let contains =
+            |name: &[u8], part: &[u8]| name.windows(part.len()).any(|bytes| bytes == part);
+        self.names
+            .split(|byte| *byte == 0)
+            .any(|name| contains(name, b"7kibiray") && contains(name, mangled.as_bytes()))
     }
 
     /// The entry points of the allocator, which any use of `alloc` calls.

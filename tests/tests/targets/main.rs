@@ -31,11 +31,19 @@ fn main() -> ExitCode {
     for machine in &machine::ALL {
         let name = format!("card_plain_on_{}", machine.name);
         trials.trials.push(trial(name, machine.tools(), |tools| machine.run_plain(&tools)));
+        for cost in machine::COSTS.iter().filter(|cost| machine.runs(&cost.program())) {
+            let name = format!("{}_on_{}", cost.program(), machine.name);
+            trials
+                .trials
+                .push(trial(name, machine.tools(), |tools| machine.run_cost(&tools, cost)));
+        }
     }
     let example = [examples::picture as fn() -> _, examples::range];
     for (name, test) in ["example_picture", "example_range"].into_iter().zip(example) {
         trials.trials.push(trial(name.into(), examples::tools(), move |()| test()));
     }
+    let sizes = trial("wasm_modules".into(), wasm::tools(), |tools| wasm::sizes(&tools));
+    trials.trials.push(sizes);
     kibiray_scenes::all(&mut trials);
     let conclusion = libtest_mimic::run(&arguments, trials.trials);
     let all = conclusion.num_filtered_out == 0 && conclusion.num_ignored == 0;
@@ -58,7 +66,7 @@ impl Each for Trials {
         let number = wasm::Number(self.subjects);
         self.subjects += 1;
         let program = machine::program::<S>();
-        for machine in &machine::ALL {
+        for machine in machine::ALL.iter().filter(|machine| machine.runs(&program)) {
             let name = format!("{program}_on_{}", machine.name);
             self.trials.push(trial(name, machine.tools(), |tools| machine.run::<S>(&tools)));
         }

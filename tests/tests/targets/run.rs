@@ -37,7 +37,7 @@ pub(crate) fn within(limit: Duration, command: &mut Command) -> Result<(ExitStat
 
 /// The line of JSON among what an image printed that ended well.
 pub(crate) fn report<T: serde::de::DeserializeOwned>(command: &mut Command) -> Result<(String, T)> {
-    let (status, text) = within(Duration::from_secs(120), command)?;
+    let (status, text) = within(Duration::from_secs(300), command)?;
     let line = text.lines().find(|line| line.starts_with('{'));
     let line = line.with_context(|| format!("no report, {status}: {command:?}\n{text}"))?;
     if !status.success() {

@@ -9,7 +9,7 @@ use core::cell::UnsafeCell;
 use kibiray::accel::{Accel, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
-use kibiray::scene::Camera;
+use kibiray::scene::{Camera, Shapes};
 use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Crc32, Each, Row, Structure, Subject, answer};
 
@@ -73,6 +73,9 @@ fn picture<S: Subject>(arena: &mut Arena<'_>) -> Option<u32> {
     let scene = S::scene().ok()?;
     let accel = S::Structure::build(&scene, arena).ok()?;
     let (width, height) = S::SIZE;
+    if height == 0 {
+        return Some(0);
+    }
     let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height)).ok()?;
     let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
     let tracer = Tracer::new(&scene, &accel, mailbox::Off, settings);
@@ -90,10 +93,11 @@ fn picture<S: Subject>(arena: &mut Arena<'_>) -> Option<u32> {
 fn answers<S: Subject>(arena: &mut Arena<'_>) -> Option<u32> {
     let scene = S::scene().ok()?;
     let accel = S::Structure::build(&scene, arena).ok()?;
-    let (mut sum, mut off) = (Crc32::new(), mailbox::Off);
+    let mut mailbox = S::Structure::mailbox(scene.shapes().count(), arena).ok()?;
+    let mut sum = Crc32::new();
     for shot in S::rays() {
-        let hit = accel.nearest(&scene, &shot.ray, Interval::RAY, &mut off, &mut ());
-        let blocked = accel.occluded(&scene, &shot.ray, shot.between, &mut off, &mut ());
+        let hit = accel.nearest(&scene, &shot.ray, Interval::RAY, &mut mailbox, &mut ());
+        let blocked = accel.occluded(&scene, &shot.ray, shot.between, &mut mailbox, &mut ());
         sum.update(&answer(hit, blocked));
     }
     Some(sum.finish())

@@ -7,30 +7,43 @@
 #![no_std]
 
 mod card;
+pub mod clouds;
 mod crc;
+mod knot;
+mod lamps;
 mod lcg;
 mod marbles;
 mod picture;
 mod plain;
 mod queries;
+mod solids;
+mod sponge;
 pub mod structure;
+mod tetra;
+mod xorshift;
 
 pub use card::Card;
 pub use crc::Crc32;
+pub use knot::Knot;
+pub use lamps::Lamps;
 pub use marbles::Marbles;
 pub use picture::{OutOfOrder, Row};
 pub use plain::Plain;
 pub use queries::{Answer, Around, Shot, answer};
+pub use solids::AllSolids;
+pub use sponge::Sponge;
 pub use structure::Structure;
+pub use tetra::Tetra;
 
+use kibiray::num::Vec3;
 use kibiray::scene::{Scene, SceneError, Shapes, View};
 
 /// A scene with the work that is done on it.
 pub trait Subject {
     /// What reports call it.
     const NAME: &'static str;
-    /// Width and height of the picture.
-    const SIZE: (u16, u16);
+    /// Width and height of the picture; 0 where only rays are shot.
+    const SIZE: (u16, u16) = (0, 0);
     /// Depth to which rays are followed.
     const DEPTH: u8 = 5;
     /// What the device builds over the shapes.
@@ -45,7 +58,9 @@ pub trait Subject {
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError>;
 
     /// Where the picture is taken from.
-    fn view() -> View<f32>;
+    fn view() -> View<f32> {
+        View { from: Vec3::<f32>::Z, at: Vec3::<f32>::ZERO, up: Vec3::<f32>::Y, angle: 1.0 }
+    }
 
     /// The rays that queries are about.
     fn rays() -> impl Iterator<Item = Shot>;
@@ -61,4 +76,18 @@ pub trait Each {
 pub fn all(each: &mut impl Each) {
     each.subject::<Marbles>();
     each.subject::<Card>();
+    each.subject::<Knot>();
+    each.subject::<Lamps>();
+    each.subject::<AllSolids>();
+    each.subject::<Tetra>();
+    each.subject::<Sponge>();
+    each.subject::<clouds::SpheresNaive>();
+    each.subject::<clouds::SpheresGrid>();
+    each.subject::<clouds::SpheresOctree>();
+    each.subject::<clouds::SpheresBvh>();
+    each.subject::<clouds::TrianglesNaive>();
+    each.subject::<clouds::TrianglesGrid>();
+    each.subject::<clouds::TrianglesStampedGrid>();
+    each.subject::<clouds::TrianglesOctree>();
+    each.subject::<clouds::TrianglesBvh>();
 }

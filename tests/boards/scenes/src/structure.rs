@@ -1,7 +1,7 @@
 //! Structures with their parameters, as types: what a subject names, and nothing else, is linked.
 
 use kibiray::accel::octree::{self, StoppedBy};
-use kibiray::accel::{self, Accel, BuildError};
+use kibiray::accel::{self, Accel, BuildError, Mailbox, mailbox};
 use kibiray::memory::Arena;
 use kibiray::scene::{Scene, Shapes};
 
@@ -11,6 +11,8 @@ pub trait Structure {
     const NAME: &'static str;
     /// What is built.
     type Built<'m>: Accel<f32>;
+    /// What keeps queries from testing a shape twice.
+    type Mailbox<'m>: Mailbox;
 
     /// Builds it over a scene.
     ///
@@ -20,6 +22,12 @@ pub trait Structure {
         scene: &Scene<'_, f32, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError>;
+
+    /// Makes the mailbox.
+    ///
+    /// # Errors
+    /// Those of the core.
+    fn mailbox<'m>(shapes: usize, arena: &mut Arena<'m>) -> Result<Self::Mailbox<'m>, BuildError>;
 
     /// Why it is not finer.
     fn stopped_by(_built: &Self::Built<'_>) -> StoppedBy {
@@ -34,12 +42,17 @@ pub struct Naive;
 impl Structure for Naive {
     const NAME: &'static str = "naive";
     type Built<'m> = accel::Naive;
+    type Mailbox<'m> = mailbox::Off;
 
     fn build<'m, S: Shapes<f32>>(
         scene: &Scene<'_, f32, S>,
         _arena: &mut Arena<'m>,
     ) -> Result<accel::Naive, BuildError> {
         Ok(accel::Naive::new(scene))
+    }
+
+    fn mailbox<'m>(_shapes: usize, _arena: &mut Arena<'m>) -> Result<mailbox::Off, BuildError> {
+        Ok(mailbox::Off)
     }
 }
 
@@ -50,12 +63,38 @@ pub struct Grid<const X: u32, const Y: u32, const Z: u32>;
 impl<const X: u32, const Y: u32, const Z: u32> Structure for Grid<X, Y, Z> {
     const NAME: &'static str = "grid";
     type Built<'m> = accel::Grid<'m, f32, u16, u16>;
+    type Mailbox<'m> = mailbox::Off;
 
     fn build<'m, S: Shapes<f32>>(
         scene: &Scene<'_, f32, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError> {
         accel::Grid::build(scene, [X, Y, Z], arena)
+    }
+
+    fn mailbox<'m>(_shapes: usize, _arena: &mut Arena<'m>) -> Result<mailbox::Off, BuildError> {
+        Ok(mailbox::Off)
+    }
+}
+
+/// The same with a stamp for every shape: none is tested twice.
+#[derive(Clone, Copy, Debug)]
+pub struct StampedGrid<const X: u32, const Y: u32, const Z: u32>;
+
+impl<const X: u32, const Y: u32, const Z: u32> Structure for StampedGrid<X, Y, Z> {
+    const NAME: &'static str = "stamped-grid";
+    type Built<'m> = accel::Grid<'m, f32, u16, u16>;
+    type Mailbox<'m> = mailbox::Stamps<'m>;
+
+    fn build<'m, S: Shapes<f32>>(
+        scene: &Scene<'_, f32, S>,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self::Built<'m>, BuildError> {
+        accel::Grid::build(scene, [X, Y, Z], arena)
+    }
+
+    fn mailbox<'m>(shapes: usize, arena: &mut Arena<'m>) -> Result<Self::Mailbox<'m>, BuildError> {
+        Ok(mailbox::Stamps::new(shapes, arena)?)
     }
 }
 
@@ -66,6 +105,7 @@ pub struct Octree<const OBJECTS: usize, const LEVEL: u32>;
 impl<const OBJECTS: usize, const LEVEL: u32> Structure for Octree<OBJECTS, LEVEL> {
     const NAME: &'static str = "octree";
     type Built<'m> = accel::Octree<'m, f32, u16>;
+    type Mailbox<'m> = mailbox::Off;
 
     fn build<'m, S: Shapes<f32>>(
         scene: &Scene<'_, f32, S>,
@@ -75,7 +115,32 @@ impl<const OBJECTS: usize, const LEVEL: u32> Structure for Octree<OBJECTS, LEVEL
         accel::Octree::build(scene, limits, arena)
     }
 
+    fn mailbox<'m>(_shapes: usize, _arena: &mut Arena<'m>) -> Result<mailbox::Off, BuildError> {
+        Ok(mailbox::Off)
+    }
+
     fn stopped_by(built: &Self::Built<'_>) -> StoppedBy {
         built.stopped_by()
+    }
+}
+
+/// A hierarchy of boxes with so many nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Bvh<const NODES: usize>;
+
+impl<const NODES: usize> Structure for Bvh<NODES> {
+    const NAME: &'static str = "bvh";
+    type Built<'m> = accel::Bvh<'m, f32, u16>;
+    type Mailbox<'m> = mailbox::Off;
+
+    fn build<'m, S: Shapes<f32>>(
+        scene: &Scene<'_, f32, S>,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self::Built<'m>, BuildError> {
+        accel::Bvh::build(scene, NODES, arena)
+    }
+
+    fn mailbox<'m>(_shapes: usize, _arena: &mut Arena<'m>) -> Result<mailbox::Off, BuildError> {
+        Ok(mailbox::Off)
     }
 }

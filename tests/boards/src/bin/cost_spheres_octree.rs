@@ -1,0 +1,11 @@
+//! Queries about spheres in an octree.
+#![no_std]
+#![no_main]
+
+use kibiray_boards::cost::{self, SPHERES};
+use kibiray_scenes::structure::Octree;
+
+#[kibiray_boards::rt::entry]
+fn main() -> ! {
+    cost::exit(cost::query::<_, Octree<1, 4>>(&SPHERES[..]))
+}
