@@ -1,6 +1,6 @@
 //! From a scene and a number of bytes to a structure with its parameters, and the reason.
 
-use crate::accel::{self, BuildError, bvh, mailbox, octree};
+use crate::accel::{self, BuildError, Huge, bvh, grid, mailbox, octree};
 use crate::memory::OutOfArena;
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
@@ -31,6 +31,10 @@ pub struct Wishes {
     pub max_objects: Option<usize>,
     /// An octree's limit of depth.
     pub max_level: Option<u32>,
+    /// What grids and octrees do with shapes much larger than the others.
+    pub huge: Option<Huge>,
+    /// Whether a grid's empty cells know how far it is to the next that is not.
+    pub macro_cells: Option<bool>,
     /// How an octree's cells are stored.
     pub store: Option<octree::Store>,
     /// How an octree is walked.
@@ -38,6 +42,28 @@ pub struct Wishes {
 }
 
 impl Wishes {
+    fn huge(&self) -> Huge {
+        self.huge.unwrap_or(Huge::Aside)
+    }
+
+    fn grid(&self, resolution: [u32; 3]) -> grid::Settings {
+        let macro_cells = self.macro_cells.unwrap_or(true);
+        grid::Settings { resolution, huge: self.huge(), macro_cells }
+    }
+
+    /// An octree that takes what memory it can use.
+    fn octree(&self) -> octree::Settings {
+        let limits = octree::Limits {
+            max_objects: self.max_objects.unwrap_or(MAX_OBJECTS),
+            max_level: self.max_level.unwrap_or(octree::DEEPEST),
+        };
+        octree::Settings {
+            growth: octree::Growth { limits, huge: self.huge() },
+            store: self.store.unwrap_or_default(),
+            walk: self.walk.unwrap_or_default(),
+        }
+    }
+
     /// Whether a parameter is given that only an octree has.
     fn asks_for_octree(&self) -> bool {
         self.max_objects.is_some()
@@ -153,17 +179,10 @@ fn fit<R: Real, S: Shapes<R>>(
     let accel = match structure {
         Structure::Naive => accel::Kind::Naive,
         Structure::Grid => accel::Kind::Grid(match wishes.resolution {
-            Some(resolution) => resolution,
-            None => grid_for(scene, budget.saturating_sub(taken.kept)),
+            Some(resolution) => wishes.grid(resolution),
+            None => grid_for(scene, wishes, budget.saturating_sub(taken.kept)),
         }),
-        Structure::Octree => accel::Kind::Octree(octree::Settings {
-            limits: octree::Limits {
-                max_objects: wishes.max_objects.unwrap_or(MAX_OBJECTS),
-                max_level: wishes.max_level.unwrap_or(octree::DEEPEST),
-            },
-            store: wishes.store.unwrap_or_default(),
-            walk: wishes.walk.unwrap_or_default(),
-        }),
+        Structure::Octree => accel::Kind::Octree(wishes.octree()),
         Structure::Bvh => {
             let shapes = scene.shapes().bounded();
             let room = budget.saturating_sub(taken.kept);
@@ -192,8 +211,7 @@ fn choose<R: Real, S: Shapes<R>>(
         return (Structure::Naive, Reason::FewShapes { shapes });
     }
     let mailbox = wishes.mailbox.unwrap_or(mailbox::Kind::Off).footprint(shapes);
-    let limits = octree::Limits { max_objects: 0, max_level: 0 };
-    let octree = accel::Kind::Octree(limits.into());
+    let octree = accel::Kind::Octree(wishes.octree());
     let needed = mailbox.then(accel::Any::least(octree, scene)).peak;
     if needed > budget {
         (Structure::Naive, Reason::NoMemory { needed, available: budget })
@@ -213,13 +231,17 @@ fn mailbox_for(shapes: usize, budget: usize) -> mailbox::Kind {
 }
 
 /// The finest grid, of at most eight cells a shape, that fits.
-fn grid_for<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, room: usize) -> [u32; 3] {
+fn grid_for<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    wishes: &Wishes,
+    room: usize,
+) -> grid::Settings {
     let mut cells = scene.shapes().bounded().saturating_mul(8).max(1);
     loop {
-        let resolution = accel::grid::resolution_for(scene, cells);
-        let footprint = accel::Any::least(accel::Kind::Grid(resolution), scene);
+        let settings = wishes.grid(grid::resolution_for(scene, wishes.huge(), cells));
+        let footprint = accel::Any::least(accel::Kind::Grid(settings), scene);
         if footprint.peak <= room || cells == 1 {
-            return resolution;
+            return settings;
         }
         cells = cells / 2 + cells / 4;
     }

@@ -5,14 +5,14 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use kibiray::accel::mailbox::{self, AnyMailbox};
-use kibiray::accel::{Any, BuildError, octree};
+use kibiray::accel::{self, Any, BuildError, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::Real;
 use kibiray::plan::{Plan, Structure, Wishes, plan};
 use kibiray::scene::{Scene, Shapes, Solids};
 use kibiray::trace::{Adaptive, MOST_LEVELS, Sampling, Tracer};
 
-use crate::options::{AccelKind, Antialiasing, Common, MailboxKind, Store, Walk};
+use crate::options::{AccelKind, Antialiasing, Common, Huge, MailboxKind, Store, Switch, Walk};
 
 /// What traces on this host.
 pub type HostTracer<'a, R> = Tracer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>>;
@@ -64,6 +64,11 @@ pub fn wishes(options: &Common) -> Wishes {
         resolution: options.grid,
         max_objects: options.max_objects,
         max_level: options.max_level,
+        macro_cells: options.macro_cells.map(|switch| switch == Switch::On),
+        huge: options.huge.map(|huge| match huge {
+            Huge::Inside => accel::Huge::Inside,
+            Huge::Aside => accel::Huge::Aside,
+        }),
         store: options.store.map(|store| match store {
             Store::Links => octree::Store::Links,
             Store::Hash => octree::Store::Hashed,

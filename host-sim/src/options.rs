@@ -205,6 +205,15 @@ pub struct Common {
     #[arg(long, value_name = "K")]
     #[arg(value_parser = clap::value_parser!(u32).range(0..=i64::from(octree::DEEPEST)))]
     pub max_level: Option<u32>,
+    /// Grid and octree: shapes much larger than the others are listed like these, or kept beside the
+    /// structure [default: aside; inside for stats with a fixed resolution or limit, as the
+    /// published counts are made so]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub huge: Option<Huge>,
+    /// Grid: empty cells know how far it is to the next that is not [default: on; off for stats with
+    /// a fixed resolution, as the published counts are made so]
+    #[arg(long, value_enum, value_name = "SWITCH")]
+    pub macro_cells: Option<Switch>,
     /// Octree: how its cells are stored [default: links]
     #[arg(long, value_enum, value_name = "KIND")]
     pub store: Option<Store>,
@@ -277,6 +286,22 @@ pub enum MailboxKind {
     Cache,
 }
 
+/// `--macro-cells`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Switch {
+    Off,
+    On,
+}
+
+/// `--huge`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Huge {
+    Inside,
+    Aside,
+}
+
 /// `--store`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[allow(missing_docs)]
@@ -316,7 +341,7 @@ impl Common {
     /// # Errors
     /// One line for the user.
     pub fn check(&self) -> Result<(), String> {
-        let grid = self.grid.is_some();
+        let grid = self.grid.is_some() || self.macro_cells.is_some();
         let octree = self.max_objects.is_some()
             || self.max_level.is_some()
             || self.store.is_some()
@@ -328,10 +353,10 @@ impl Common {
             return Err("--overlap exact is not built yet: take box".into());
         }
         if grid && octree {
-            return Err("--grid is for grids, --max-objects, --max-level, --store and --walk are for octrees".into());
+            return Err("--grid and --macro-cells are for grids, --max-objects, --max-level, --store and --walk are for octrees".into());
         }
         if grid && !matches!(self.accel, AccelKind::Auto | AccelKind::Grid) {
-            return Err("--grid is only for --accel grid".into());
+            return Err("--grid and --macro-cells are only for --accel grid".into());
         }
         if octree && !matches!(self.accel, AccelKind::Auto | AccelKind::Octree) {
             return Err(
@@ -344,8 +369,15 @@ impl Common {
     /// With the parameters of a structure fixed, what is not given is as in the published counts.
     #[must_use]
     pub fn as_published(mut self) -> Self {
-        if self.max_objects.is_some() || self.max_level.is_some() {
+        let octree = self.max_objects.is_some() || self.max_level.is_some();
+        if octree {
             self.walk.get_or_insert(Walk::Restart);
+        }
+        if self.grid.is_some() {
+            self.macro_cells.get_or_insert(Switch::Off);
+        }
+        if octree || self.grid.is_some() {
+            self.huge.get_or_insert(Huge::Inside);
         }
         self
     }

@@ -63,6 +63,9 @@ pub struct AccelReport {
     /// Entries of all lists.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub references: Option<usize>,
+    /// Shapes kept beside the structure; in no list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aside: Option<usize>,
     /// Lists that differ from each other, the empty one not counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distinct_lists: Option<usize>,
@@ -125,6 +128,7 @@ impl AccelReport {
             leaves: Some(leaves),
             empty_leaves: Some(empty),
             references: Some(references),
+            aside: Some(grid.aside()),
             resolution: Some(grid.resolution()),
             ..Self::default()
         }
@@ -152,6 +156,7 @@ impl AccelReport {
             leaves: Some(leaves),
             empty_leaves: Some(empty),
             references: Some(references),
+            aside: Some(octree.aside()),
             distinct_lists: Some(distinct),
             max_level: Some(octree.max_level()),
             stopped_by: Some(match octree.stopped_by() {

@@ -121,14 +121,17 @@ fn what_is_not_built_yet_says_so() {
     let cases = [
         ("stats scene.nff --num fixed", "--num fixed is not built yet: take f32 or f64"),
         ("stats scene.nff --overlap exact", "--overlap exact is not built yet: take box"),
-        ("stats scene.nff --accel octree --grid 1x1x1", "--grid is only for --accel grid"),
+        (
+            "stats scene.nff --accel octree --grid 1x1x1",
+            "--grid and --macro-cells are only for --accel grid",
+        ),
         (
             "stats scene.nff --accel grid --max-level 3",
             "--max-objects, --max-level, --store and --walk are only for --accel octree",
         ),
         (
             "stats scene.nff --grid 1x1x1 --max-objects 3",
-            "--grid is for grids, --max-objects, --max-level, --store and --walk are for octrees",
+            "--grid and --macro-cells are for grids, --max-objects, --max-level, --store and --walk are for octrees",
         ),
         (
             "trace scene.nff --rays in.csv --hits - --json -",

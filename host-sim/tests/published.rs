@@ -122,6 +122,26 @@ fn grids_have_the_published_cells() {
 }
 
 #[test]
+fn macro_cells_save_two_of_three_empty_steps() {
+    for scene in ["spd:teapot", "spd:tetra", "spd:balls"] {
+        let run = |switch| stats(&format!("{scene} --accel grid --macro-cells {switch}"));
+        let [off, on] = ["off", "on"].map(run);
+        let empty = |report: &Value| number(report, "work", "empty_leaves_visited");
+        let full = |report: &Value| number(report, "work", "leaves_visited") - empty(report);
+        let ratio = empty(&off) / empty(&on);
+        println!(
+            "{scene}: {} empty steps, {} with macro-cells: {ratio:.2}",
+            empty(&off),
+            empty(&on)
+        );
+        assert!(ratio >= 3.0, "{scene}: {ratio:.2}");
+        assert_eq!(full(&off), full(&on), "{scene}: full cells");
+        assert_eq!(off["memory"], on["memory"], "{scene}: bytes");
+        assert_eq!(off["rays"], on["rays"], "{scene}: hits");
+    }
+}
+
+#[test]
 fn rays_hit_as_often_as_published() {
     // Primary hits; shadow rays, blocked ones, secondary rays of an independent program (within 3 %).
     for (scene, primary, others) in [

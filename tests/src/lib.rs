@@ -1,6 +1,6 @@
 //! Helpers shared by the test programs of kibiray.
 
-use kibiray::accel::{Accel, Any, BuildError, Hit, Kind, bvh, grid, mailbox, octree};
+use kibiray::accel::{Accel, Any, BuildError, Hit, Huge, Kind, bvh, grid, mailbox, octree};
 use kibiray::geom::{Aabb, Interval, Ray};
 use kibiray::memory::Arena;
 use kibiray::num::{Real, Vec3, Vector};
@@ -136,10 +136,19 @@ pub type Setup = (Kind, mailbox::Kind, usize);
 /// Structures of all sorts with all mailboxes, in ample and in scarce memory.
 pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     use mailbox::Kind::{Cache, Off, Stamps};
-    let limits = |max_objects, max_level| octree::Limits { max_objects, max_level };
-    let octree = |max_objects, max_level| Kind::Octree(limits(max_objects, max_level).into());
-    let cells = |n| Kind::Grid(grid::resolution_for(scene, scene.shapes().count() * n));
-    let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (Kind::Grid([1; 3]), Off, UNLIMITED)];
+    let settings = |max_objects, max_level, huge| {
+        let limits = octree::Limits { max_objects, max_level };
+        octree::Settings { growth: octree::Growth { limits, huge }, ..limits.into() }
+    };
+    let octree = |objects, level| Kind::Octree(settings(objects, level, Huge::Aside));
+    let inside = |objects, level| Kind::Octree(settings(objects, level, Huge::Inside));
+    let cells = |n, huge| {
+        let cells = scene.shapes().count() * n;
+        let resolution = grid::resolution_for(scene, huge, cells);
+        Kind::Grid(grid::Settings { resolution, huge, macro_cells: huge == Huge::Aside })
+    };
+    let cubic = |n: u32| Kind::Grid([n; 3].into());
+    let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (cubic(1), Off, UNLIMITED)];
     // From the fewest nodes to one shape a leaf, and as a budget comes out.
     let shapes = scene.shapes().bounded();
     for nodes in [0, shapes / 24, shapes / 10, shapes] {
@@ -154,11 +163,19 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         (Links, Walk::Neighbours),
         (Links, Walk::Segments),
     ] {
-        let settings = octree::Settings { limits: limits(3, 7), store, walk };
-        setups.push((Kind::Octree(settings), Off, UNLIMITED));
+        let octree = octree::Settings { store, walk, ..settings(3, 7, Huge::Aside) };
+        setups.push((Kind::Octree(octree), Off, UNLIMITED));
     }
     for mailbox in [Off, Stamps, Cache] {
-        for kind in [cells(3), Kind::Grid([16; 3]), Kind::Grid([7, 1, 30]), octree(1, 6)] {
+        for kind in [
+            cells(3, Huge::Inside),
+            cells(3, Huge::Aside),
+            cubic(16),
+            Kind::Grid(grid::Settings { macro_cells: true, ..[24; 3].into() }),
+            Kind::Grid([7, 1, 30].into()),
+            inside(1, 6),
+            octree(1, 6),
+        ] {
             setups.push((kind, mailbox, UNLIMITED));
         }
         for kib in [1, 2, 4, 8, 16, 64, 256] {

@@ -2,7 +2,7 @@
 //! right number of bytes; how much a build takes is known beforehand.
 
 use kibiray::accel::octree::AnyOctree;
-use kibiray::accel::{Accel, Any, BuildError, Hit, Kind, mailbox, octree};
+use kibiray::accel::{Accel, Any, BuildError, Hit, Huge, Kind, grid, mailbox, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::Real;
 use kibiray::plan::{Plan, Structure, Wishes, plan};
@@ -108,16 +108,17 @@ fn the_footprint_is_the_high_water_mark() {
         let polygons = tables.polygons();
         let scene = tables.scene(&polygons).unwrap();
         let stored = |max_objects, max_level, store| {
-            let settings = octree::Limits { max_objects, max_level }.into();
-            Kind::Octree(octree::Settings { store, ..settings })
+            let limits = octree::Limits { max_objects, max_level };
+            let growth = octree::Growth { limits, huge: Huge::Aside };
+            Kind::Octree(octree::Settings { growth, store, ..limits.into() })
         };
         let octree = |objects, level| stored(objects, level, octree::Store::Links);
         let hashed = |objects, level| stored(objects, level, octree::Store::Hashed);
         let kinds = [
             Kind::Naive,
-            Kind::Grid([1, 1, 1]),
-            Kind::Grid([20, 3, 7]),
-            Kind::Grid([40; 3]),
+            Kind::Grid([1, 1, 1].into()),
+            Kind::Grid([20, 3, 7].into()),
+            Kind::Grid(grid::Settings { huge: Huge::Aside, macro_cells: true, ..[40; 3].into() }),
             octree(1, 0),
             octree(1, 1),
             octree(1, 4),

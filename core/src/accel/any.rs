@@ -12,8 +12,8 @@ use crate::scene::{Scene, Shapes};
 pub enum Kind {
     /// [`Naive`].
     Naive,
-    /// [`Grid`] with so many cells along each axis.
-    Grid([u32; 3]),
+    /// [`Grid`].
+    Grid(grid::Settings),
     /// An [`Octree`](super::Octree), within the memory that is free.
     Octree(octree::Settings),
     /// [`Bvh`] of so many nodes.
@@ -50,7 +50,7 @@ enum Width {
 fn width(shapes: usize, size: grid::Size) -> Width {
     if shapes > <u16 as Id>::MAX {
         Width::Large
-    } else if size.references > <u16 as Id>::MAX {
+    } else if !size.fits::<u16>() {
         Width::Medium
     } else {
         Width::Small
@@ -103,8 +103,6 @@ impl<'m, R: Real> Any<'m, R> {
     pub fn least<S: Shapes<R>>(kind: Kind, scene: &Scene<'_, R, S>) -> Footprint {
         let shapes = scene.shapes().bounded();
         let narrow = shapes <= <u16 as Id>::MAX;
-        // A list of all shapes begins with its length.
-        let entries = shapes.saturating_add(usize::from(shapes > 0));
         match kind {
             Kind::Naive => Footprint::default(),
             Kind::Grid(n) => {
@@ -115,8 +113,7 @@ impl<'m, R: Real> Any<'m, R> {
                     Width::Large => size.footprint::<u32, u32>(),
                 }
             }
-            Kind::Octree(_) if narrow => Footprint::of::<u16>(entries),
-            Kind::Octree(_) => Footprint::of::<u32>(entries),
+            Kind::Octree(settings) => AnyOctree::least(scene, settings),
             Kind::Bvh(nodes) if narrow => bvh::footprint::<u16>(shapes, nodes),
             Kind::Bvh(nodes) => bvh::footprint::<u32>(shapes, nodes),
         }

@@ -5,7 +5,6 @@
 
 use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Axis, Real, Vec3, Vector};
-use crate::scene::{Scene, Shapes};
 
 /// Cells per axis at most: coordinates of cells stay exact in every number type.
 pub(crate) const MOST_CELLS: i32 = 1 << 20;
@@ -120,19 +119,13 @@ impl<R: Real> Track<R> {
     }
 }
 
-/// The box of a structure's root: the scene's, a little larger, so that no face of a shape lies in
-/// an outer wall and scenes without thickness get some.
+/// The box of a structure's root: that of its shapes, a little larger, so that no face of a shape
+/// lies in an outer wall and scenes without thickness get some.
 ///
 /// `lower` and `upper` say how much is added at either end, in 2^-15 of the extent.
-pub(crate) fn root<R: Real, S: Shapes<R>>(
-    scene: &Scene<'_, R, S>,
-    lower: i32,
-    upper: i32,
-) -> Aabb<R> {
-    let bounds = scene.bounds();
-    let pads = scene.pad() + scene.pad();
+pub(crate) fn root<R: Real>(bounds: Aabb<R>, pad: R, lower: i32, upper: i32) -> Aabb<R> {
     // Without any shape, any box will do.
-    let least = if pads > R::ZERO { pads } else { R::ONE };
+    let least = if pad > R::ZERO { pad + pad } else { R::ONE };
     let unit = R::ONE / R::from_i32(1 << 15);
     let grow = |n: i32| bounds.size().map(|s| (s * unit * R::from_i32(n)).max(least));
     Aabb { lo: bounds.lo - grow(lower), hi: bounds.hi + grow(upper) }

@@ -60,7 +60,7 @@ pub(super) struct Units<R: Real> {
 
 impl<R: Real> Units<R> {
     pub(super) fn of<S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Self {
-        let root = lattice::root(scene, 32, 32);
+        let root = lattice::root(scene.bounds(), scene.pad(), 32, 32);
         // Of a small scene far away from the origin no coordinate is known that finely; 255 units
         // are to be more than a rounding error, or rays would enter boxes that are empty.
         let least = scene.bounds().max_abs() / R::from_i32(256);

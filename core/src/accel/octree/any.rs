@@ -1,6 +1,7 @@
 //! An octree whose storage and walk are chosen while the program runs.
 
-use super::{Hashed, Limits, Links, Octree, StoppedBy, Walk};
+use super::{Growth, Hashed, Limits, Links, Octree, StoppedBy, Walk};
+use crate::accel::listing::Aside;
 use crate::accel::{Accel, BuildError, Id, Visitor};
 use crate::geom::Ray;
 use crate::memory::{Arena, Footprint};
@@ -20,8 +21,8 @@ pub enum Store {
 /// All that is chosen about an octree while the program runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// When a cell is divided.
-    pub limits: Limits,
+    /// How it grows.
+    pub growth: Growth,
     /// How cells are stored.
     pub store: Store,
     /// How a ray gets from leaf to leaf.
@@ -30,7 +31,7 @@ pub struct Settings {
 
 impl From<Limits> for Settings {
     fn from(limits: Limits) -> Self {
-        Self { limits, store: Store::default(), walk: Walk::default() }
+        Self { growth: limits.into(), store: Store::default(), walk: Walk::default() }
     }
 }
 
@@ -57,20 +58,20 @@ impl<'m, R: Real> AnyOctree<'m, R> {
     /// As [`Octree::build`].
     pub fn build<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
-        Settings { limits, store, walk }: Settings,
+        Settings { growth, store, walk }: Settings,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         let narrow = scene.shapes().bounded() <= <u16 as Id>::MAX;
         Ok(match store {
-            Store::Links if narrow => match Octree::build_in_words(scene, limits, arena, false) {
+            Store::Links if narrow => match Octree::build_in_words(scene, growth, arena, false) {
                 Err(BuildError::TooMany { .. }) => {
-                    Self::Medium(Octree::build(scene, limits, arena)?, walk)
+                    Self::Medium(Octree::build(scene, growth, arena)?, walk)
                 }
                 octree => Self::Small(octree?, walk),
             },
-            Store::Links => Self::Large(Octree::build(scene, limits, arena)?, walk),
-            Store::Hashed if narrow => Self::Hashed(Octree::build(scene, limits, arena)?, walk),
-            Store::Hashed => Self::LargeHashed(Octree::build(scene, limits, arena)?, walk),
+            Store::Links => Self::Large(Octree::build(scene, growth, arena)?, walk),
+            Store::Hashed if narrow => Self::Hashed(Octree::build(scene, growth, arena)?, walk),
+            Store::Hashed => Self::LargeHashed(Octree::build(scene, growth, arena)?, walk),
         })
     }
 
@@ -80,19 +81,33 @@ impl<'m, R: Real> AnyOctree<'m, R> {
     /// As [`Octree::footprint`], but never for words that are too narrow.
     pub fn footprint<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
-        Settings { limits, store, .. }: Settings,
+        Settings { growth, store, .. }: Settings,
     ) -> Result<Footprint, BuildError> {
         let narrow = scene.shapes().bounded() <= <u16 as Id>::MAX;
         match store {
-            Store::Links if narrow => match Octree::<R, u16>::footprint(scene, limits) {
+            Store::Links if narrow => match Octree::<R, u16>::footprint(scene, growth) {
                 Err(BuildError::TooMany { .. }) => {
-                    Octree::<R, u16, Links<'_, u32>>::footprint(scene, limits)
+                    Octree::<R, u16, Links<'_, u32>>::footprint(scene, growth)
                 }
                 footprint => footprint,
             },
-            Store::Links => Octree::<R, u32, Links<'_, u32>>::footprint(scene, limits),
-            Store::Hashed if narrow => Octree::<R, u16, Hashed<'_>>::footprint(scene, limits),
-            Store::Hashed => Octree::<R, u32, Hashed<'_>>::footprint(scene, limits),
+            Store::Links => Octree::<R, u32, Links<'_, u32>>::footprint(scene, growth),
+            Store::Hashed if narrow => Octree::<R, u16, Hashed<'_>>::footprint(scene, growth),
+            Store::Hashed => Octree::<R, u32, Hashed<'_>>::footprint(scene, growth),
+        }
+    }
+
+    /// The fewest bytes that [`AnyOctree::build`] takes: those of a single cell. Links no code that
+    /// divides cells.
+    pub fn least<S: Shapes<R>>(scene: &Scene<'_, R, S>, settings: Settings) -> Footprint {
+        let (aside, _) = Aside::<u32>::of(scene, settings.growth.huge);
+        let listed = scene.shapes().bounded() - aside.count();
+        // A list begins with its length.
+        let entries = listed.saturating_add(usize::from(listed > 0));
+        if scene.shapes().bounded() <= <u16 as Id>::MAX {
+            Footprint::of::<u16>(entries)
+        } else {
+            Footprint::of::<u32>(entries)
         }
     }
 

@@ -11,6 +11,7 @@ use super::footprint::bytes;
 use super::storage::{Content, Storage, most};
 use super::{Octree, list_at};
 use crate::accel::lattice::{self, Lattice};
+use crate::accel::listing::{Aside, Huge};
 use crate::accel::{BuildError, Id};
 use crate::memory::{Arena, Ends, Footprint};
 use crate::num::Real;
@@ -25,6 +26,21 @@ pub struct Limits {
     pub max_level: u32,
 }
 
+/// How an octree grows. [`Limits`] alone mean: everything is listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Growth {
+    /// When a cell is divided.
+    pub limits: Limits,
+    /// What is done with shapes much larger than the others.
+    pub huge: Huge,
+}
+
+impl From<Limits> for Growth {
+    fn from(limits: Limits) -> Self {
+        Self { limits, huge: Huge::Inside }
+    }
+}
+
 /// Why the division of cells ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StoppedBy {
@@ -36,23 +52,23 @@ pub enum StoppedBy {
     Memory,
 }
 
-pub(super) fn check<R: Real, S: Shapes<R>, I: Id>(
+/// The room an octree divides, and what is left out of it.
+///
+/// # Errors
+/// [`BuildError::TooMany`], [`BuildError::TooDeep`].
+pub(super) fn room<R: Real, S: Shapes<R>, I: Id>(
     scene: &Scene<'_, R, S>,
-    limits: Limits,
-) -> Result<u32, BuildError> {
-    if limits.max_level > DEEPEST {
-        return Err(BuildError::TooDeep { level: limits.max_level, limit: DEEPEST });
+    Growth { limits, huge }: Growth,
+) -> Result<(Lattice<R>, Aside<I>), BuildError> {
+    let deepest = limits.max_level;
+    if deepest > DEEPEST {
+        return Err(BuildError::TooDeep { level: deepest, limit: DEEPEST });
     }
     // A list begins with its length, so that has to fit as well as the ids.
     BuildError::unless_fits::<I>("shapes", scene.shapes().bounded())?;
-    Ok(limits.max_level)
-}
-
-pub(super) fn lattice_of<R: Real, S: Shapes<R>>(
-    scene: &Scene<'_, R, S>,
-    deepest: u32,
-) -> Lattice<R> {
-    Lattice::new(lattice::root(scene, 32, 32), [1 << deepest; 3], scene.pad())
+    let (aside, bounds) = Aside::of(scene, huge);
+    let root = lattice::root(bounds, scene.pad(), 32, 32);
+    Ok((Lattice::new(root, [1 << deepest; 3], scene.pad()), aside))
 }
 
 /// Which children of a cell a shape touches, as bits 0 to 7; 0 when it does not touch the cell.
@@ -93,10 +109,10 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     /// [`BuildError::TooMany`], [`BuildError::TooDeep`].
     pub fn build<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
-        limits: Limits,
+        growth: impl Into<Growth>,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
-        Self::build_in_words(scene, limits, arena, true)
+        Self::build_in_words(scene, growth.into(), arena, true)
     }
 
     /// As [`Octree::build`]. Unless that is allowed, the words may not be what stops the division:
@@ -106,13 +122,13 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     /// As [`Octree::build`], and [`BuildError::TooMany`] when the words are too narrow.
     pub(crate) fn build_in_words<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
-        limits: Limits,
+        growth: Growth,
         arena: &mut Arena<'m>,
         may_stop: bool,
     ) -> Result<Self, BuildError> {
-        let deepest = check::<R, S, I>(scene, limits)?;
-        let lattice = lattice_of(scene, deepest);
-        let shapes = scene.shapes().bounded();
+        let (lattice, aside) = room::<R, S, I>(scene, growth)?;
+        let limits = growth.limits;
+        let shapes = scene.shapes().bounded() - aside.count();
         let entries = shapes + usize::from(shapes > 0);
         let fits =
             |count| BuildError::unless_above("octree list entries", count, most::<C::Word>());
@@ -122,9 +138,8 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
 
         let ends = arena.scratch::<C::Block, I>();
         let (root, max_level) = (Content::List(0), 0);
-        let mut growing =
-            Growing::<R, S, I, C> { lattice, scene, limits, deepest, root, max_level, ends };
-        growing.plant(shapes);
+        let mut growing = Growing::<R, S, I, C> { lattice, scene, limits, root, max_level, ends };
+        growing.plant(shapes, &aside);
         let stopped_by = match growing.grow() {
             Ok(stopped_by) => stopped_by,
             Err(Refusal::Words(count)) if !may_stop => fits(count).map(|()| StoppedBy::Memory)?,
@@ -134,7 +149,8 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         let (root, families, entries) = growing.close_up();
         let cells = C::keep(root.word::<C::Word>(), families, arena)?;
         let lists: &mut [I] = arena.keep("octree lists", entries)?;
-        Ok(Self { lattice, deepest, max_level, stopped_by, cells, lists })
+        let deepest = limits.max_level;
+        Ok(Self { lattice, deepest, max_level, stopped_by, cells, lists, aside })
     }
 }
 
@@ -149,7 +165,6 @@ struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
     lattice: Lattice<R>,
     scene: &'g Scene<'s, R, S>,
     limits: Limits,
-    deepest: u32,
     root: Content,
     /// Level of the deepest leaf.
     max_level: u32,
@@ -159,12 +174,13 @@ struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
 
 impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S, I, C> {
     /// The root: one cell that lists every shape.
-    fn plant(&mut self, shapes: usize) {
+    fn plant(&mut self, shapes: usize, aside: &Aside<I>) {
         if shapes > 0 && self.ends.grow(0, shapes + 1, 0) {
             let (_, lists) = self.ends.both();
             if let Some((length, ids)) = lists.split_first_mut() {
                 *length = I::new(shapes);
-                for (id, place) in ids.iter_mut().enumerate() {
+                let listed = (0..).filter(|id| !aside.contains(*id));
+                for (id, place) in listed.zip(ids) {
                     *place = I::new(id);
                 }
             }
@@ -175,7 +191,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
     /// Divides candidates, first in first out, until done or something refuses.
     fn grow(&mut self) -> Result<StoppedBy, Refusal> {
         let mut stopped_by = StoppedBy::Done;
-        for level in 0..=self.deepest {
+        for level in 0..=self.limits.max_level {
             self.close_gaps();
             let mut cursor = Cursor::ROOT;
             loop {
@@ -187,7 +203,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
                     Some(Content::List(place)) if cursor.level() == level => {
                         if self.count(place) <= self.limits.max_objects {
                             // Few enough.
-                        } else if level == self.deepest {
+                        } else if level == self.limits.max_level {
                             stopped_by = StoppedBy::Level;
                         } else if let Err(refusal) = self.divide(&cursor) {
                             let Refusal::Memory = refusal else { return Err(refusal) };
@@ -237,7 +253,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
     fn divide(&mut self, cursor: &Cursor) -> Result<(), Refusal> {
         let slot = cursor.slot();
         let Some(Content::List(place)) = self.content(slot) else { return Ok(()) };
-        let (base, edge) = cursor.code().place(self.deepest);
+        let (base, edge) = cursor.code().place(self.limits.max_level);
         let (lattice, scene) = (self.lattice, self.scene);
         let octants = |id: &I| touches(&lattice, scene, id.get(), base, edge);
 

@@ -1,7 +1,7 @@
 //! How many bytes an octree takes, counted without memory.
 
 use super::Octree;
-use super::build::{Limits, check, lattice_of, touches};
+use super::build::{Growth, room, touches};
 use super::code::{Code, DEEPEST};
 use super::storage::{Storage, most};
 use crate::accel::{BuildError, Id};
@@ -37,15 +37,16 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     /// [`BuildError::TooDeep`].
     pub fn footprint<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
-        limits: Limits,
+        growth: impl Into<Growth>,
     ) -> Result<Footprint, BuildError> {
-        let deepest = check::<R, S, I>(scene, limits)?;
-        let lattice = lattice_of(scene, deepest);
+        let growth = growth.into();
+        let (lattice, aside) = room::<R, S, I>(scene, growth)?;
+        let (limits, deepest) = (growth.limits, growth.limits.max_level);
         let mut levels = [Level::default(); DEEPEST as usize + 1];
         let mut next = Some(Code::ROOT);
         while let Some(code) = next {
             let (base, edge) = code.place(deepest);
-            let shapes = 0..scene.shapes().bounded();
+            let shapes = (0..scene.shapes().bounded()).filter(|id| !aside.contains(*id));
             let inside = |id: &usize| touches(&lattice, scene, *id, base, edge) != 0;
             let count = shapes.filter(inside).count();
             let entries = count + usize::from(count > 0);

@@ -19,12 +19,13 @@ mod storage;
 mod walk;
 
 pub use any::{AnyOctree, Settings, Store};
-pub use build::{Limits, StoppedBy};
+pub use build::{Growth, Limits, StoppedBy};
 pub use code::DEEPEST;
 pub use storage::{Content, Hashed, Links, Storage};
 pub use walk::{By, Walk};
 
 use super::lattice::Lattice;
+use super::listing::Aside;
 use super::{Accel, Id, Visitor};
 use crate::geom::Ray;
 use crate::num::Real;
@@ -39,6 +40,7 @@ pub struct Octree<'m, R: Real, I, C = Links<'m, u16>> {
     stopped_by: StoppedBy,
     cells: C,
     lists: &'m [I],
+    aside: Aside<I>,
 }
 
 /// The list at a place, counted from the end of all lists.
@@ -59,6 +61,11 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     /// Number of divided cells.
     pub fn interior_nodes(&self) -> usize {
         self.cells.families().len()
+    }
+
+    /// Number of shapes kept beside it.
+    pub fn aside(&self) -> usize {
+        self.aside.count()
     }
 
     /// The level of the deepest leaf.

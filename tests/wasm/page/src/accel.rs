@@ -23,7 +23,7 @@ impl<'m> Small<'m> {
             accel::Kind::Naive => Self::Naive(Naive::new(scene)),
             accel::Kind::Grid(cells) => Self::Grid(Grid::build(scene, cells, arena)?),
             accel::Kind::Octree(settings) => {
-                Self::Octree(Octree::build(scene, settings.limits, arena)?)
+                Self::Octree(Octree::build(scene, settings.growth, arena)?)
             }
             accel::Kind::Bvh(nodes) => Self::Bvh(Bvh::build(scene, nodes, arena)?),
         })

@@ -9,7 +9,7 @@ mod descent;
 mod places;
 
 use super::{Octree, Storage};
-use crate::accel::{Accel, Id, Visitor};
+use crate::accel::{Accel, Id, Visitor, listing};
 use crate::geom::{Ray, Slopes};
 use crate::num::Real;
 use crate::probe::Probe;
@@ -58,6 +58,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
 impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for By<'_, Octree<'m, R, I, C>> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let octree = self.octree;
+        octree.aside.visit(visitor);
         let slopes = Slopes::of(ray);
         let part = octree.lattice.clip(&slopes, visitor.start(), visitor.limit());
         let Some((enter, leave)) = part else { return };
@@ -99,9 +100,7 @@ fn test<'m, R: Real, I: Id, C: Storage<'m>, V: Visitor<R>>(
 ) -> bool {
     let list = octree.list(leaf);
     visitor.probe().leaf(list.is_empty());
-    if !list.is_empty() {
-        visitor.visit(list.iter().map(|id| id.get()));
-    }
+    listing::visit(list, visitor);
     visitor.limit() > exit
 }
 

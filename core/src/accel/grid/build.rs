@@ -1,0 +1,144 @@
+//! Building a grid by counting, in the memory that it keeps.
+
+use super::{Grid, Settings, Size, distance, index};
+use crate::accel::lattice::{self, Lattice};
+use crate::accel::listing::Aside;
+use crate::accel::{BuildError, Huge, Id};
+use crate::geom::Aabb;
+use crate::memory::Arena;
+use crate::num::{Real, Vector};
+use crate::scene::{Scene, Shapes};
+
+/// The box that a grid divides, and what is left out of it.
+///
+/// The extra at the lower end is a little greater than at the upper: an even number of cells would
+/// otherwise put a wall into the middle of the scene, where symmetric scenes like to have faces,
+/// and each of these would be listed on both sides.
+fn room<R: Real, S: Shapes<R>, I: Id>(scene: &Scene<'_, R, S>, huge: Huge) -> (Aabb<R>, Aside<I>) {
+    let (aside, bounds) = Aside::of(scene, huge);
+    (lattice::root(bounds, scene.pad(), 33, 31), aside)
+}
+
+/// The shapes that a grid lists.
+fn listed<R: Real, S: Shapes<R>, I: Id>(
+    scene: &Scene<'_, R, S>,
+    aside: &Aside<I>,
+) -> impl DoubleEndedIterator<Item = usize> {
+    (0..scene.shapes().bounded()).filter(|id| !aside.contains(*id))
+}
+
+/// Counts the cells and list entries that a resolution gives. Time in proportion to the number of
+/// shapes; no memory.
+pub fn size<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, settings: impl Into<Settings>) -> Size {
+    let Settings { resolution, huge, .. } = settings.into();
+    let (root, aside) = room::<_, _, u32>(scene, huge);
+    size_of_room(scene, &Lattice::new(root, resolution, scene.pad()), &aside)
+}
+
+fn size_of_room<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    lattice: &Lattice<R>,
+    aside: &Aside<impl Id>,
+) -> Size {
+    let product = |n: [i32; 3]| n.iter().fold(1_usize, |p, n| p.saturating_mul(*n as usize));
+    let references = listed(scene, aside).fold(0_usize, |sum, id| {
+        let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes().bounds(id));
+        sum.saturating_add(product([x1 - x0 + 1, y1 - y0 + 1, z1 - z0 + 1]))
+    });
+    Size { cells: product(lattice.count()), references }
+}
+
+/// The resolution with nearly cubic cells that has at most `cells` of them.
+///
+/// A. Woo's rule: the longest axis gets L cells, the others in proportion, at least one.
+pub fn resolution_for<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    huge: Huge,
+    cells: usize,
+) -> [u32; 3] {
+    let size = room::<_, _, u32>(scene, huge).0.size();
+    let longest = size.max_abs();
+    let counts = |l: i32| {
+        let per_axis = |s: R| (s / longest * R::from_i32(l)).to_i32().max(1) as u32;
+        size.to_array().map(per_axis)
+    };
+    let fits = |n: [u32; 3]| n.iter().fold(1_usize, |p, n| p.saturating_mul(*n as usize)) <= cells;
+    // Bisection: the number of cells grows with L.
+    let (mut low, mut high) = (1, lattice::MOST_CELLS);
+    while low < high {
+        let middle = low + (high - low + 1) / 2;
+        if fits(counts(middle)) { low = middle } else { high = middle - 1 }
+    }
+    counts(low)
+}
+
+impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
+    /// Builds a grid over the bounded shapes of a scene. Lists are in ascending order of ids.
+    ///
+    /// # Errors
+    /// [`BuildError::Memory`] with the exact number of bytes; [`BuildError::TooMany`] when ids or
+    /// offsets do not fit their types.
+    pub fn build<S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        settings: impl Into<Settings>,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, BuildError> {
+        let Settings { resolution, huge, macro_cells } = settings.into();
+        let (root, aside) = room::<_, _, I>(scene, huge);
+        let lattice = Lattice::new(root, resolution, scene.pad());
+        let shapes = scene.shapes().bounded();
+        BuildError::unless_fits::<I>("shapes", shapes.saturating_sub(1))?;
+        let size = size_of_room(scene, &lattice, &aside);
+        BuildError::unless_above("references", size.references, distance::most_offset::<O>())?;
+        arena.require(size.footprint::<I, O>())?;
+        let slots: &mut [O] = arena.keep("grid cells", size.cells.saturating_add(1))?;
+        let references: &mut [I] = arena.keep("grid references", size.references)?;
+        slots.fill(O::new(0));
+        for id in listed(scene, &aside) {
+            for_cells(&lattice, scene, id, |cell| {
+                if let Some(count) = slots.get_mut(cell) {
+                    *count = O::new(count.get() + 1);
+                }
+            });
+        }
+        let mut end = 0;
+        for slot in slots.iter_mut() {
+            end += slot.get();
+            *slot = O::new(end);
+        }
+        // Every offset is now the end of its list and moves to its beginning while the list is
+        // filled from behind.
+        for id in listed(scene, &aside).rev() {
+            for_cells(&lattice, scene, id, |cell| {
+                if let Some(slot) = slots.get_mut(cell) {
+                    let place = slot.get().saturating_sub(1);
+                    *slot = O::new(place);
+                    if let Some(reference) = references.get_mut(place) {
+                        *reference = I::new(id);
+                    }
+                }
+            });
+        }
+        if macro_cells {
+            distance::mark(slots, lattice.count());
+        }
+        Ok(Self { lattice, slots, references, aside })
+    }
+}
+
+/// Calls `f` with the number of every cell that a shape touches.
+fn for_cells<R: Real, S: Shapes<R>>(
+    lattice: &Lattice<R>,
+    scene: &Scene<'_, R, S>,
+    id: usize,
+    mut f: impl FnMut(usize),
+) {
+    let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes().bounds(id));
+    for z in z0..=z1 {
+        for y in y0..=y1 {
+            for x in x0..=x1 {
+                f(index(lattice.count(), x, y, z));
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The uniform grid, walked by a 3D DDA.
+//!
+//! A. Fujimoto, T. Tanaka, K. Iwata, "ARTS: accelerated ray-tracing system", IEEE CG&A 6(4) (1986);
+//! J. Amanatides, A. Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987.
+//! Lists as one array of references and one of offsets, built by counting: A. Lagae, P. Dutré,
+//! "Compact, fast and robust grids for ray tracing", EGSR 2008.
+//!
+//! Instead of adding a cell's width to the parameter of the next wall, the parameter is computed
+//! from the wall's number: one multiplication more, and wrong cells become 15 to 50 times rarer.
+
+mod build;
+mod distance;
+mod walk;
+
+pub use build::{resolution_for, size};
+
+use super::lattice::Lattice;
+use super::listing::Aside;
+use super::{Huge, Id};
+use crate::memory::Footprint;
+use crate::num::Real;
+use distance::Slot;
+
+/// A grid. `I` stores ids of shapes, `O` offsets into the lists.
+#[derive(Debug)]
+pub struct Grid<'m, R: Real, I, O> {
+    lattice: Lattice<R>,
+    /// Where the list of each cell begins, and where the last one ends, or how far it is to the
+    /// next list: [`Slot`].
+    slots: &'m [O],
+    references: &'m [I],
+    aside: Aside<I>,
+}
+
+/// All that is chosen about a grid. A resolution alone means: everything is listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Cells along each axis.
+    pub resolution: [u32; 3],
+    /// What is done with shapes much larger than the others.
+    pub huge: Huge,
+    /// Whether empty cells know how far it is to the next that is not: takes no memory, but time
+    /// while building.
+    pub macro_cells: bool,
+}
+
+impl From<[u32; 3]> for Settings {
+    fn from(resolution: [u32; 3]) -> Self {
+        Self { resolution, huge: Huge::Inside, macro_cells: false }
+    }
+}
+
+/// How large a grid of a resolution is: made by counting, before building.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Cells, or the greatest number there is if they do not fit the address space.
+    pub cells: usize,
+    /// Entries of all lists.
+    pub references: usize,
+}
+
+impl Size {
+    /// Whether offsets of this type reach all entries.
+    pub fn fits<O: Id>(&self) -> bool {
+        self.references <= distance::most_offset::<O>()
+    }
+
+    /// Bytes of a grid of this size; building needs no more.
+    pub fn footprint<I: Id, O: Id>(&self) -> Footprint {
+        let offsets = Footprint::of::<O>(self.cells.saturating_add(1));
+        offsets.then(Footprint::of::<I>(self.references))
+    }
+}
+
+impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
+    /// Cells along each axis.
+    pub fn resolution(&self) -> [u32; 3] {
+        self.lattice.count().map(|n| n as u32)
+    }
+
+    /// Number of shapes kept beside it.
+    pub fn aside(&self) -> usize {
+        self.aside.count()
+    }
+
+    /// The lists of all cells, x running fastest.
+    pub fn lists(&self) -> impl Iterator<Item = &'m [I]> {
+        (0..self.slots.len().saturating_sub(1)).map(|cell| match distance::slot(self.slots, cell) {
+            Slot::List(from, to) => self.references.get(from..to).unwrap_or_default(),
+            Slot::Empty(_) => &[],
+        })
+    }
+}
+
+/// The number of a cell.
+fn index([nx, ny, _]: [i32; 3], x: i32, y: i32, z: i32) -> usize {
+    (z as usize * ny as usize + y as usize) * nx as usize + x as usize
+}

@@ -1,0 +1,97 @@
+//! Which shapes a structure lists, and which it keeps beside.
+
+use super::{Id, Visitor};
+use crate::geom::Aabb;
+use crate::num::{Real, Vector};
+use crate::scene::{Scene, Shapes};
+use heapless::Vec;
+
+/// What is done with shapes much larger than the others.
+///
+/// A floor under a model makes the box of the scene much larger than that of the model: a structure
+/// that divides this box into equal parts spends them on nothing (the teapot in the stadium).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Huge {
+    /// They are listed like the others.
+    #[default]
+    Inside,
+    /// Up to [`MOST_ASIDE`] of them are kept beside the structure, which is built in the box of what
+    /// remains, and every ray is tested against them first: as many of the largest as halve the
+    /// surface of the box once each.
+    Aside,
+}
+
+/// Shapes that are kept beside a structure, at most.
+pub const MOST_ASIDE: usize = 6;
+
+/// The shapes that are kept beside a structure.
+#[derive(Clone, Debug)]
+pub(crate) struct Aside<I> {
+    ids: Vec<I, MOST_ASIDE>,
+}
+
+impl<I: Id> Aside<I> {
+    /// Picks them; and the box of all other bounded shapes. Time in proportion to the number of
+    /// shapes.
+    pub(crate) fn of<R: Real, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        huge: Huge,
+    ) -> (Self, Aabb<R>) {
+        let shapes = scene.shapes();
+        if huge == Huge::Inside || shapes.bounded() <= MOST_ASIDE {
+            return (Self { ids: Vec::new() }, scene.bounds());
+        }
+        let area = |bounds: Aabb<R>| {
+            let [x, y, z] = bounds.size().to_array();
+            x * y + y * z + z * x
+        };
+        // The largest ones, in descending order; of equal ones the first.
+        let mut largest: Vec<(R, I), MOST_ASIDE> = Vec::new();
+        for id in 0..shapes.bounded() {
+            let size = area(shapes.bounds(id));
+            if largest.is_full() && largest.last().is_some_and(|(last, _)| size > *last) {
+                largest.pop();
+            }
+            let place = largest.partition_point(|(other, _)| *other >= size);
+            // Refused when it is not among the largest.
+            let _ = largest.insert(place, (size, I::new(id)));
+        }
+        let is_among = |ids: &[(R, I)], id: usize| ids.iter().any(|(_, i)| i.get() == id);
+        let others = (0..shapes.bounded()).filter(|id| !is_among(&largest, *id));
+        let mut rest = others.fold(Aabb::empty(), |b: Aabb<R>, id| b.union(shapes.bounds(id)));
+
+        // Puts the smallest of them back one by one, as long as keeping them aside does not pay.
+        let all = area(scene.bounds());
+        while let Some((_, last)) = largest.last() {
+            let halved = (0..largest.len()).fold(area(rest), |area, _| area + area);
+            if halved < all {
+                break;
+            }
+            rest = rest.union(shapes.bounds(last.get()));
+            largest.pop();
+        }
+        (Self { ids: largest.iter().map(|(_, id)| *id).collect() }, rest)
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Whether a shape is one of them.
+    pub(crate) fn contains(&self, id: usize) -> bool {
+        self.ids.iter().any(|aside| aside.get() == id)
+    }
+
+    /// Has a ray tested against them.
+    pub(crate) fn visit<R: Real, V: Visitor<R>>(&self, visitor: &mut V) {
+        visit(&self.ids, visitor);
+    }
+}
+
+/// Has a ray tested against the shapes of a list.
+pub(crate) fn visit<R: Real, I: Id, V: Visitor<R>>(list: &[I], visitor: &mut V) {
+    if !list.is_empty() {
+        visitor.visit(list.iter().map(|id| id.get()));
+    }
+}
