@@ -7,10 +7,10 @@ use cpu_time::ProcessTime;
 use kibiray::accel::mailbox::{self, AnyMailbox};
 use kibiray::accel::{self, Any, BuildError, octree};
 use kibiray::memory::{Arena, OutOfArena};
-use kibiray::num::Real;
+use kibiray::num::{Real, Vec3};
 use kibiray::plan::{Plan, Structure, Wishes, plan};
 use kibiray::scene::{Scene, Shapes, Solids};
-use kibiray::trace::{Adaptive, MOST_LEVELS, Sampling, Tracer};
+use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 
 use crate::options::{AccelKind, Antialiasing, Common, Huge, MailboxKind, Store, Switch, Walk};
 
@@ -135,15 +135,45 @@ impl Picture {
     /// Where there is none.
     pub const NONE: Self = Self { width: 0, aa: Antialiasing::Off };
 
-    fn sampling<'m, R: Real>(self, arena: &mut Arena<'m>) -> Result<Sampling<'m, R>, OutOfArena> {
+    fn sampling<'m, R: Real>(
+        self,
+        arena: &mut Arena<'m>,
+    ) -> Result<AnySampling<'m, R>, OutOfArena> {
         Ok(match self.aa {
-            Antialiasing::Off => Sampling::Middle,
-            Antialiasing::Uniform(n) => Sampling::Uniform(n),
+            Antialiasing::Off => AnySampling::Middle(Middle),
+            Antialiasing::Uniform(n) => AnySampling::Uniform(Uniform(n)),
             Antialiasing::Adaptive(threshold) => {
                 let threshold = R::from_f64(threshold);
-                Sampling::Adaptive(Adaptive::new(self.width, threshold, MOST_LEVELS, arena)?)
+                AnySampling::Adaptive(Adaptive::new(self.width, threshold, MOST_LEVELS, arena)?)
             }
         })
+    }
+}
+
+/// Any way to sample, chosen at run time.
+#[derive(Debug)]
+#[allow(missing_docs)]
+pub enum AnySampling<'m, R: Real> {
+    Middle(Middle),
+    Uniform(Uniform),
+    Adaptive(Adaptive<'m, R>),
+}
+
+impl<R: Real> Sampling<R> for AnySampling<'_, R> {
+    fn parts(&self) -> i32 {
+        match self {
+            Self::Middle(it) => Sampling::<R>::parts(it),
+            Self::Uniform(it) => Sampling::<R>::parts(it),
+            Self::Adaptive(it) => it.parts(),
+        }
+    }
+
+    fn pixel(&mut self, x: u16, y: u16, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
+        match self {
+            Self::Middle(it) => Sampling::<R>::pixel(it, x, y, see),
+            Self::Uniform(it) => Sampling::<R>::pixel(it, x, y, see),
+            Self::Adaptive(it) => it.pixel(x, y, see),
+        }
     }
 }
 
@@ -157,7 +187,7 @@ pub struct Built<'m, R: Real> {
     /// A mailbox a thread.
     pub mailboxes: Vec<AnyMailbox<'m>>,
     /// How to sample, a thread.
-    pub samplings: Vec<Sampling<'m, R>>,
+    pub samplings: Vec<AnySampling<'m, R>>,
     /// How long all that took.
     pub seconds: f64,
 }

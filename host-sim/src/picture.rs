@@ -10,7 +10,7 @@ use kibiray::probe::Counters;
 use kibiray::scene::{Camera, Scene, Solids};
 use kibiray::trace::{Renderer, Settings, Tracer};
 
-use crate::engine::{Built, Pass, fastest, share, timed};
+use crate::engine::{AnySampling, Built, Pass, fastest, share, timed};
 use crate::image::Image;
 
 /// A picture and what it took.
@@ -28,7 +28,7 @@ pub struct Rendered {
 
 /// A thread's renderer and its counters.
 struct Worker<'a, R: Real> {
-    renderer: Renderer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>>,
+    renderer: Renderer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>, AnySampling<'a, R>>,
     counters: Counters,
 }
 

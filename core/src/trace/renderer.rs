@@ -1,7 +1,7 @@
 //! Pictures, row by row.
 
 use super::Tracer;
-use super::sampling::{self, Sampling};
+use super::sampling::{Middle, Sampling};
 use crate::accel::{Accel, Mailbox};
 use crate::display::rgb888;
 use crate::num::{Real, Vec3};
@@ -13,29 +13,32 @@ use embedded_graphics_core::prelude::{Point, Size};
 use embedded_graphics_core::primitives::Rectangle;
 
 /// Renders a picture row by row, so that a main loop never waits longer than for one row. Keeps no
-/// pixels, but for what [`Sampling`] says.
+/// pixels, but for what its [`Sampling`] does.
 #[derive(Debug)]
-pub struct Renderer<'a, R: Real, S, A, M> {
+pub struct Renderer<'a, R: Real, S, A, M, P = Middle> {
     tracer: Tracer<'a, R, S, A, M>,
     camera: Camera<R>,
     width: u16,
     height: u16,
     next_row: u16,
-    sampling: Sampling<'a, R>,
+    sampling: P,
 }
 
 impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Renderer<'a, R, S, A, M> {
     /// A picture of so many pixels, not begun. The camera's aspect should be `width / height`.
     pub fn new(tracer: Tracer<'a, R, S, A, M>, camera: Camera<R>, width: u16, height: u16) -> Self {
-        Self { tracer, camera, width, height, next_row: 0, sampling: Sampling::Middle }
+        Self { tracer, camera, width, height, next_row: 0, sampling: Middle }
     }
 
     /// The same picture, each pixel made from other rays than the one through its middle.
     #[must_use]
-    pub fn sampled(self, sampling: Sampling<'a, R>) -> Self {
-        Self { sampling, ..self }
+    pub fn sampled<P: Sampling<R>>(self, sampling: P) -> Renderer<'a, R, S, A, M, P> {
+        let Self { tracer, camera, width, height, next_row, .. } = self;
+        Renderer { tracer, camera, width, height, next_row, sampling }
     }
+}
 
+impl<R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox, P: Sampling<R>> Renderer<'_, R, S, A, M, P> {
     /// The row that comes next, from the top; the height when the picture is done.
     pub fn next_row(&self) -> u16 {
         self.next_row
@@ -47,9 +50,9 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Renderer<'a, R, S, A, M
     }
 
     /// The colour of a pixel. The pixel (0, 0) is at the upper left.
-    pub fn pixel<P: Probe>(&mut self, x: u16, y: u16, probe: &mut P) -> Vec3<R> {
+    pub fn pixel<C: Probe>(&mut self, x: u16, y: u16, probe: &mut C) -> Vec3<R> {
         let Self { tracer, camera, width, height, sampling, .. } = self;
-        let parts = sampling::parts(sampling);
+        let parts = sampling.parts();
         // From points in parts of pixels to -1..1 across the picture.
         let across = |i: i32, n: u16| {
             let n = i32::from(n) * parts;
@@ -59,11 +62,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Renderer<'a, R, S, A, M
             let ray = camera.ray(across(x, *width), -across(y, *height));
             ray.map_or_else(Vec3::<R>::default, |ray| tracer.color(ray, probe))
         };
-        match sampling {
-            Sampling::Middle => see(2 * i32::from(x) + 1, 2 * i32::from(y) + 1),
-            Sampling::Uniform(n) => sampling::uniform::<R>(x, y, (*n).max(1), &mut see),
-            Sampling::Adaptive(adaptive) => adaptive.pixel(x, y, &mut see),
-        }
+        sampling.pixel(x, y, &mut see)
     }
 
     /// Renders the next row into a display, in one call of

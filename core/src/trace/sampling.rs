@@ -15,20 +15,58 @@ pub const MOST_LEVELS: u8 = 3;
 /// Parts of a pixel's edge at the deepest level.
 const PARTS: i32 = 1 << MOST_LEVELS;
 
-/// How a pixel is sampled. Where several rays make a pixel, what each sees is cut to 0 to 1 first: a
-/// single highlight would outshine its neighbours otherwise.
-#[derive(Debug, Default)]
-pub enum Sampling<'m, R: Real> {
-    /// One ray through the middle.
-    #[default]
-    Middle,
-    /// A square grid of rays, so many along each edge; 0 counts as 1.
-    Uniform(u8),
-    /// Rays through the corners, and more where they differ.
-    Adaptive(Adaptive<'m, R>),
+/// How a pixel is sampled: a type, so that a program has the code for the ways it uses only. Where
+/// several rays make a pixel, what each sees is cut to 0 to 1 first: a single highlight would
+/// outshine its neighbours otherwise.
+pub trait Sampling<R: Real> {
+    /// In how many parts an edge of a pixel is divided by the points that it looks at.
+    fn parts(&self) -> i32;
+
+    /// The colour of a pixel, from what is seen at points of the picture, counted in those parts.
+    fn pixel(&mut self, x: u16, y: u16, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R>;
 }
 
-/// What adaptive sampling remembers: the corners of one row.
+/// One ray through the middle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Middle;
+
+impl<R: Real> Sampling<R> for Middle {
+    fn parts(&self) -> i32 {
+        2
+    }
+
+    fn pixel(&mut self, x: u16, y: u16, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
+        see(2 * i32::from(x) + 1, 2 * i32::from(y) + 1)
+    }
+}
+
+/// The mean of a square of rays, so many along each edge, through the middles of equal parts; 0
+/// counts as 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Uniform(pub u8);
+
+impl<R: Real> Sampling<R> for Uniform {
+    fn parts(&self) -> i32 {
+        2 * i32::from(self.0.max(1))
+    }
+
+    fn pixel(&mut self, x: u16, y: u16, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
+        let n = i32::from(self.0.max(1));
+        let mut color = Vec3::<R>::default();
+        for j in 0..n {
+            for i in 0..n {
+                let seen = see(2 * (i32::from(x) * n + i) + 1, 2 * (i32::from(y) * n + j) + 1);
+                color = color + seen.map(|c| c.clamp(R::ZERO, R::ONE));
+            }
+        }
+        color * (R::ONE / R::from_i32(n * n))
+    }
+}
+
+/// Rays through the corners, and more where they differ; remembers the corners of one row.
+///
+/// Goes fastest along rows from left to right and from the top; pixels out of order cost all their
+/// corners.
 #[derive(Debug)]
 pub struct Adaptive<'m, R: Real> {
     /// Corners of the row's upper line; left of the pixel that comes next, of its lower line.
@@ -65,49 +103,6 @@ impl<'m, R: Real> Adaptive<'m, R> {
         Footprint::of::<Vec3<R>>(usize::from(width) + 1)
     }
 
-    /// The colour of a pixel, from what `see` sees at points of the picture, counted in eighths of
-    /// pixels. Goes fastest along rows from left to right and from the top; pixels out of order cost
-    /// all their corners.
-    pub(super) fn pixel(
-        &mut self,
-        x: u16,
-        y: u16,
-        see: &mut impl FnMut(i32, i32) -> Vec3<R>,
-    ) -> Vec3<R> {
-        let (column, row) = (i32::from(x) * PARTS, i32::from(y) * PARTS);
-        let mut see = |x, y| see(x, y).map(|c| c.clamp(R::ZERO, R::ONE));
-        let i = usize::from(x);
-        let in_order = self.next == Some((x, y));
-        if !in_order {
-            // The beginning of a row sees all of its corners, another pixel only its own.
-            let last = if x == 0 { usize::MAX } else { i + 2 };
-            for (i, corner) in self.corners.iter_mut().enumerate().take(last).skip(i) {
-                *corner = see(i as i32 * PARTS, row);
-            }
-        }
-        if !in_order || x == 0 {
-            self.left = see(column, row + PARTS);
-        }
-        let corner = see(column + PARTS, row + PARTS);
-        let is_last = i + 2 >= self.corners.len();
-        let Some([upper_left, upper_right]) = self.corners.get_mut(i..i + 2) else {
-            return Vec3::<R>::default();
-        };
-        let corners = [*upper_left, *upper_right, self.left, corner];
-        *upper_left = self.left;
-        self.left = corner;
-        self.next = if is_last {
-            *upper_right = corner;
-            y.checked_add(1).map(|y| (0, y))
-        } else {
-            x.checked_add(1).map(|x| (x, y))
-        };
-        if !in_order && x > 0 {
-            self.next = None;
-        }
-        self.divide(Square { x: column, y: row, size: PARTS, corners }, &mut see)
-    }
-
     /// The colour of a square, divided where its corners differ.
     #[inline(never)]
     fn divide(&self, pixel: Square<R>, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
@@ -142,6 +137,47 @@ impl<'m, R: Real> Adaptive<'m, R> {
     }
 }
 
+impl<R: Real> Sampling<R> for Adaptive<'_, R> {
+    fn parts(&self) -> i32 {
+        PARTS
+    }
+
+    fn pixel(&mut self, x: u16, y: u16, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
+        let (column, row) = (i32::from(x) * PARTS, i32::from(y) * PARTS);
+        let mut see = |x, y| see(x, y).map(|c| c.clamp(R::ZERO, R::ONE));
+        let i = usize::from(x);
+        let in_order = self.next == Some((x, y));
+        if !in_order {
+            // The beginning of a row sees all of its corners, another pixel only its own.
+            let last = if x == 0 { usize::MAX } else { i + 2 };
+            for (i, corner) in self.corners.iter_mut().enumerate().take(last).skip(i) {
+                *corner = see(i as i32 * PARTS, row);
+            }
+        }
+        if !in_order || x == 0 {
+            self.left = see(column, row + PARTS);
+        }
+        let corner = see(column + PARTS, row + PARTS);
+        let is_last = i + 2 >= self.corners.len();
+        let Some([upper_left, upper_right]) = self.corners.get_mut(i..i + 2) else {
+            return Vec3::<R>::default();
+        };
+        let corners = [*upper_left, *upper_right, self.left, corner];
+        *upper_left = self.left;
+        self.left = corner;
+        self.next = if is_last {
+            *upper_right = corner;
+            y.checked_add(1).map(|y| (0, y))
+        } else {
+            x.checked_add(1).map(|x| (x, y))
+        };
+        if !in_order && x > 0 {
+            self.next = None;
+        }
+        self.divide(Square { x: column, y: row, size: PARTS, corners }, &mut see)
+    }
+}
+
 /// A part of the picture: its upper left corner and its edge in eighths of pixels, and what is seen
 /// at the upper left, upper right, lower left and lower right.
 struct Square<R: Real> {
@@ -149,34 +185,6 @@ struct Square<R: Real> {
     y: i32,
     size: i32,
     corners: [Vec3<R>; 4],
-}
-
-/// The mean of what is seen in the middles of `n` by `n` parts of a pixel, from points counted in
-/// `2 n`ths of pixels.
-pub(super) fn uniform<R: Real>(
-    x: u16,
-    y: u16,
-    n: u8,
-    see: &mut impl FnMut(i32, i32) -> Vec3<R>,
-) -> Vec3<R> {
-    let n = i32::from(n);
-    let mut color = Vec3::<R>::default();
-    for j in 0..n {
-        for i in 0..n {
-            let seen = see(2 * (i32::from(x) * n + i) + 1, 2 * (i32::from(y) * n + j) + 1);
-            color = color + seen.map(|c| c.clamp(R::ZERO, R::ONE));
-        }
-    }
-    color * (R::ONE / R::from_i32(n * n))
-}
-
-/// In how many parts a pixel's edge is counted.
-pub(super) const fn parts(sampling: &Sampling<'_, impl Real>) -> i32 {
-    match sampling {
-        Sampling::Middle | Sampling::Uniform(0) => 2,
-        Sampling::Uniform(n) => 2 * *n as i32,
-        Sampling::Adaptive(_) => PARTS,
-    }
 }
 
 #[cfg(test)]
@@ -254,7 +262,7 @@ mod tests {
     #[test]
     fn a_uniform_grid_is_cut_and_averaged() {
         let mut seen = std::vec::Vec::new();
-        let color = uniform::<f32>(3, 1, 2, &mut |x, y| {
+        let color: Vec3 = Sampling::<f32>::pixel(&mut Uniform(2), 3, 1, &mut |x, y| {
             seen.push((x, y));
             vec3(9.0, 0.5, -1.0)
         });
