@@ -91,7 +91,7 @@ pub enum Reason {
         /// Bytes there are.
         available: usize,
     },
-    /// An octree that takes what memory it can use.
+    /// A hierarchy that takes what memory it can use.
     ManyShapes {
         /// How many there are.
         shapes: usize,
@@ -109,7 +109,7 @@ impl core::fmt::Display for Reason {
                 write!(f, "the smallest structure takes {needed} bytes of {available}")
             }
             Self::ManyShapes { shapes } => {
-                write!(f, "{shapes} shapes: an octree grows into the memory that is left")
+                write!(f, "{shapes} shapes: a hierarchy as fine as the memory allows")
             }
         }
     }
@@ -211,12 +211,11 @@ fn choose<R: Real, S: Shapes<R>>(
         return (Structure::Naive, Reason::FewShapes { shapes });
     }
     let mailbox = wishes.mailbox.unwrap_or(mailbox::Kind::Off).footprint(shapes);
-    let octree = accel::Kind::Octree(wishes.octree());
-    let needed = mailbox.then(accel::Any::least(octree, scene)).peak;
+    let needed = mailbox.then(accel::Any::least(accel::Kind::Bvh(0), scene)).peak;
     if needed > budget {
         (Structure::Naive, Reason::NoMemory { needed, available: budget })
     } else {
-        (Structure::Octree, Reason::ManyShapes { shapes })
+        (Structure::Bvh, Reason::ManyShapes { shapes })
     }
 }
 

@@ -51,7 +51,7 @@ pub struct SceneReport {
 pub struct AccelReport {
     /// Its name.
     pub kind: &'static str,
-    /// Divided cells of an octree.
+    /// Divided cells of an octree, nodes of a hierarchy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interior_nodes: Option<usize>,
     /// Leaves, or cells of a grid.
@@ -69,7 +69,13 @@ pub struct AccelReport {
     /// Lists that differ from each other, the empty one not counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distinct_lists: Option<usize>,
-    /// Level of an octree's deepest leaf.
+    /// Shapes in a leaf of a hierarchy, in the mean.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shapes_per_leaf: Option<f64>,
+    /// Shapes in the largest leaf of a hierarchy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_leaf: Option<usize>,
+    /// Level of the deepest leaf of an octree or a hierarchy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_level: Option<u32>,
     /// Why an octree was not divided further.
@@ -134,13 +140,16 @@ impl AccelReport {
         }
     }
 
-    fn bvh<R: Real, I: Id + Eq + std::hash::Hash>(bvh: &Bvh<'_, R, I>) -> Self {
-        let (leaves, _, references, _) = lists(bvh.leaves());
+    fn bvh<R: Real, I: Id>(bvh: &Bvh<'_, R, I>) -> Self {
+        let lengths = || bvh.leaves().map(<[I]>::len);
+        let (leaves, references) = (lengths().count(), lengths().sum::<usize>());
         Self {
             kind: "bvh",
             interior_nodes: Some(bvh.nodes()),
             leaves: Some(leaves),
             references: Some(references),
+            shapes_per_leaf: Some(references as f64 / leaves.max(1) as f64),
+            largest_leaf: Some(lengths().max().unwrap_or(0)),
             max_level: Some(bvh.levels() as u32),
             ..Self::default()
         }

@@ -77,6 +77,12 @@ pub fn table(report: &Report, outcome: &Outcome<'_>) -> String {
 
 fn structure(accel: &AccelReport) -> String {
     let leaves = accel.leaves.unwrap_or(0);
+    if let (Some(nodes), Some(mean), Some(level)) =
+        (accel.interior_nodes, accel.shapes_per_leaf, accel.max_level)
+    {
+        let tree = format!("hierarchy of {nodes} nodes on {level} levels");
+        return format!("{tree}: {leaves} leaves of {mean:.1} shapes");
+    }
     let lists = format!(
         "{} empty, {} references",
         accel.empty_leaves.unwrap_or(0),

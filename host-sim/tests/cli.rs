@@ -228,12 +228,15 @@ fn the_report_has_the_fields_that_scripts_rely_on() {
                  /rays/secondary_hits";
     let cells = "/accel/leaves /accel/empty_leaves /accel/references";
     let octree = "/accel/interior_nodes /accel/distinct_lists /accel/max_level /accel/stopped_by";
+    let tree = "/accel/interior_nodes /accel/leaves /accel/references /accel/max_level \
+                /accel/shapes_per_leaf /accel/largest_leaf";
     let image = "/image/width /image/height /image/crc32";
     let cases = [
         ("stats spd:tetra:2 --accel octree", vec![kinds, cells, octree], vec!["/image"]),
         ("stats spd:tetra:2 --accel grid", vec![kinds, cells, "/accel/resolution"], vec![octree]),
         ("stats spd:tetra:2 --accel naive", vec![kinds], vec![cells, octree, "/accel/resolution"]),
-        ("render spd:tetra:2 --size 8x8 --json -", vec![kinds, image, cells, octree], vec![]),
+        ("stats spd:tetra:2 --accel bvh", vec![kinds, tree], vec!["/accel/empty_leaves"]),
+        ("render spd:tetra:2 --size 8x8 --json -", vec![kinds, image, tree], vec![]),
     ];
     for (arguments, there, not_there) in cases {
         let report = json(&run(arguments));
@@ -282,7 +285,8 @@ inf,-1,0,0,0
 #[test]
 fn queries_come_back_as_computed_by_hand() {
     let folder = folder(&[("in.csv", RAYS)]);
-    for options in ["naive", "grid", "octree", "octree --threads 2", "grid --num f64 --repeat 2"] {
+    let grid = "grid --num f64 --repeat 2";
+    for options in ["naive", "grid", "octree", "bvh", "octree --threads 2", grid, "bvh --num f64"] {
         let arguments = format!("trace scene.nff --rays in.csv --hits - --accel {options}");
         let output = run_in(folder.path(), &arguments.split_whitespace().collect::<Vec<_>>());
         assert_eq!(
@@ -322,6 +326,7 @@ fn the_picture_is_the_same_with_every_structure_and_any_threads() {
         "--accel octree --threads 2",
         "--accel grid --threads 3 --mailbox cache",
         "--accel octree --mailbox off --repeat 2",
+        "--accel bvh --mailbox cache",
         "--ram 0",
     ] {
         assert_eq!(picture(options), naive, "{options}");

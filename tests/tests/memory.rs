@@ -265,7 +265,8 @@ fn an_octree_of_a_mesh_stays_in_proportion_to_it() {
     assert_eq!(scene.shapes().count(), 200);
     let mut memory = Memory::new(1 << 24);
     for budget in [8 << 10, 64 << 10, 1 << 24] {
-        let plan = plan(&scene, budget, &Wishes::default()).unwrap();
+        let octree = Wishes { structure: Some(Structure::Octree), ..Wishes::default() };
+        let plan = plan(&scene, budget, &octree).unwrap();
         let mut arena = Arena::new(memory.bytes(budget));
         let Any::Octree(AnyOctree::Small(octree, _)) =
             Any::build(plan.accel, &scene, &mut arena).unwrap()
