@@ -364,7 +364,7 @@ fn smooth_pictures_are_the_same_with_any_threads_and_cost_more_rays() {
 fn a_sweep_says_how_much_memory_is_worth_having() {
     let folder = folder(&[]);
     let swept = |options: &str| {
-        let arguments = format!("sweep spd:tetra:3 --size 16x16 --json - {options}");
+        let arguments = format!("sweep spd:tetra:4 --size 16x16 --json - {options}");
         json(&run_in(folder.path(), &arguments.split_whitespace().collect::<Vec<_>>()))
     };
     let all = swept("--ram 1KiB..16KiB");
