@@ -5,7 +5,7 @@ use crate::clock::{self, Stopwatch};
 use crate::report::{ArenaUse, Report};
 use crate::{report, stack};
 use kibiray::accel::octree::StoppedBy;
-use kibiray::accel::{Accel, Mailbox, mailbox};
+use kibiray::accel::{Accel, BuildError, Mailbox, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
 use kibiray::scene::{Camera, Scene, SceneError, Shapes};
@@ -48,12 +48,20 @@ pub fn subject<S: Subject>(memory: &mut [u8], row: &mut [u8]) -> Result<(), &'st
     print::<S>(&arena, S::Structure::stopped_by(&accel), build, image, hits)
 }
 
-// The next two have frames of their own, so that what they need for a moment does not stay on the
+// The next three have frames of their own, so that what they need for a moment does not stay on the
 // stack while rays are traced.
 
 #[inline(never)]
 fn scene<S: Subject>() -> Result<Scene<'static, f32, S::Shapes>, SceneError> {
     S::scene()
+}
+
+#[inline(never)]
+fn structure<'m, S: Subject>(
+    scene: &Scene<'_, f32, S::Shapes>,
+    arena: &mut Arena<'m>,
+) -> Result<<S::Structure as Structure>::Built<'m>, BuildError> {
+    S::Structure::build(scene, arena)
 }
 
 #[inline(never)]
