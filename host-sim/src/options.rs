@@ -97,6 +97,9 @@ pub struct Render {
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     #[arg(value_parser = values::share)]
     pub cutoff: f64,
+    /// Do not try first, for a shadow ray, what blocked the last ray to that light
+    #[arg(long)]
+    pub no_shadow_cache: bool,
     /// Also draw the work of every pixel (tests and traversal steps) as colours
     #[arg(long, value_name = "FILE")]
     pub heatmap: Option<PathBuf>,

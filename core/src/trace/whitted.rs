@@ -37,12 +37,17 @@ pub struct Settings<R> {
     /// show. R. A. Hall, D. P. Greenberg, "A testbed for realistic image synthesis", IEEE CG&A 3(8)
     /// (1983).
     pub cutoff: R,
+    /// Whether a shadow ray tries the shape first that blocked the last ray to that light, if it was
+    /// blocked. Pictures
+    /// are the same; the work of a pixel then depends on the pixels before.
+    pub shadow_cache: bool,
 }
 
 impl<R: Real> Default for Settings<R> {
-    /// Depth 5, contributing rays only, none of them too faint.
+    /// Depth 5, contributing rays only, none of them too faint, with a shadow cache.
     fn default() -> Self {
-        Self { max_depth: 5, secondary: Secondary::Contributing, cutoff: R::ZERO }
+        let secondary = Secondary::Contributing;
+        Self { max_depth: 5, secondary, cutoff: R::ZERO, shadow_cache: true }
     }
 }
 
@@ -62,7 +67,12 @@ pub struct Tracer<'a, R: Real, S, A, M> {
     accel: &'a A,
     mailbox: M,
     settings: Settings<R>,
+    /// What blocked the last ray to each of the first lights.
+    blockers: [Option<usize>; CACHED_LIGHTS],
 }
+
+/// Lights with a shadow cache.
+const CACHED_LIGHTS: usize = 8;
 
 impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> {
     /// A tracer over a structure and a mailbox made for that scene.
@@ -73,7 +83,13 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         settings: Settings<R>,
     ) -> Self {
         let max_depth = settings.max_depth.clamp(1, MOST_DEPTH);
-        Self { scene, accel, mailbox, settings: Settings { max_depth, ..settings } }
+        Self {
+            scene,
+            accel,
+            mailbox,
+            settings: Settings { max_depth, ..settings },
+            blockers: [None; CACHED_LIGHTS],
+        }
     }
 
     /// The colour that a ray from the eye sees, not limited to 1.
@@ -144,10 +160,16 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     /// Light that comes straight from the lamps.
     fn local<P: Probe>(&mut self, arrival: &Arrival<'_, R>, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
-        for light in self.scene.lights() {
+        for (i, light) in self.scene.lights().iter().enumerate() {
             let Some((ray, distance)) = arrival.towards(light) else { continue };
             let between = Interval::new(R::ZERO, distance);
-            let blocked = self.accel.occluded(self.scene, &ray, between, &mut self.mailbox, probe);
+            let guess = self.blockers.get(i).copied().flatten();
+            let (scene, mailbox) = (self.scene, &mut self.mailbox);
+            let blocker = self.accel.blocker(scene, &ray, between, guess, mailbox, probe);
+            let blocked = blocker.is_some();
+            if let (true, Some(last)) = (self.settings.shadow_cache, self.blockers.get_mut(i)) {
+                *last = blocker;
+            }
             probe.ray(RayKind::Shadow, blocked);
             if !blocked {
                 color = color + arrival.reflected(ray.direction()).scale(light.color);

@@ -81,6 +81,7 @@ fn render<R: Real>(
         max_depth: options.max_depth,
         secondary: Secondary::Contributing,
         cutoff: R::from_f64(options.cutoff),
+        shadow_cache: !options.no_shadow_cache,
     };
     let plan = built.plan;
     let bar = super::progress(height.into(), "rows");

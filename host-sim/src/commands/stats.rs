@@ -37,7 +37,8 @@ fn trace<R: Real>(options: &Stats, stage: Stage<'_, R>) -> anyhow::Result<()> {
     let Stage { tables, scene, built, mut report, .. } = stage;
     let Built { accel, mailboxes, .. } = built;
     let RaySet::Spd = options.rays;
-    let settings = Settings { secondary: Secondary::All, ..Settings::default() };
+    let settings =
+        Settings { secondary: Secondary::All, shadow_cache: false, ..Settings::default() };
     let camera = Camera::new(tables.view(), R::ONE)?;
     let mut workers: Vec<_> = mailboxes
         .into_iter()
