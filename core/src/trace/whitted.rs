@@ -9,10 +9,13 @@ use crate::geom::{Interval, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::probe::{Probe, RayKind};
 use crate::scene::{Light, Material, Scene, Shapes, Surface};
-use heapless::Vec;
+use heapless::{Vec, VecView};
 
-/// The greatest depth of recursion; a pending ray takes 36 bytes in `f32`.
+/// The greatest depth of recursion; a pending ray takes 44 bytes in `f32`.
 pub const MOST_DEPTH: u8 = 16;
+
+/// Up to this depth the stack of pending rays is a small one.
+const USUAL_DEPTH: usize = 5;
 
 /// Which mirrored and refracted rays are shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,9 +97,23 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 
     /// The colour that a ray from the eye sees, not limited to 1.
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
+        if usize::from(self.settings.max_depth) <= USUAL_DEPTH {
+            self.color_within::<P, USUAL_DEPTH>(ray, probe)
+        } else {
+            self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe)
+        }
+    }
+
+    /// With as much stack as the depth needs.
+    #[inline(never)]
+    fn color_within<P: Probe, const DEPTH: usize>(
+        &mut self,
+        ray: Ray<R>,
+        probe: &mut P,
+    ) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         // Each level leaves at most one ray behind, so it never holds more than the depth.
-        let mut later = Vec::<Pending<R>, { MOST_DEPTH as usize }>::new();
+        let mut later = Vec::<Pending<R>, DEPTH>::new();
         let mut now = Pending { ray: ray.with_slack(self.scene.slack()), weight: R::ONE, depth: 1 };
         loop {
             let weight = now.weight;
@@ -118,7 +135,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     fn follow<P: Probe>(
         &mut self,
         now: &mut Pending<R>,
-        later: &mut Vec<Pending<R>, { MOST_DEPTH as usize }>,
+        later: &mut VecView<Pending<R>>,
         probe: &mut P,
     ) -> (Vec3<R>, bool) {
         let scene = self.scene;
