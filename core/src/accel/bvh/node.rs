@@ -96,12 +96,27 @@ pub(super) fn clip<R: Real>(
         Slabs::of(node, y, [*y0, *y1], xy >> 4),
         Slabs::of(node, z, [*z0, *z1], shift_z & 15),
     ];
+    if !FOURS {
+        for (child, (near, far)) in near.iter_mut().zip(far.iter_mut()).enumerate() {
+            (*near, *far) = clip_one(&slabs, child, start, limit);
+        }
+        return;
+    }
     let (near_0, far_0) = clip_four::<0, R>(&slabs, start, limit);
     let (near_4, far_4) = clip_four::<4, R>(&slabs, start, limit);
     let join = |[a, b, c, d]: [R; 4], [e, f, g, h]: [R; 4]| [a, b, c, d, e, f, g, h];
     *near = join(near_0, near_4);
     *far = join(far_0, far_4);
 }
+
+/// Whether processors of this kind compute four numbers at a time. Where they do not, it pays to
+/// stop at the first axis along which a ray passes a box by; the answer is the same.
+const FOURS: bool = cfg!(any(
+    target_arch = "x86_64",
+    target_arch = "x86",
+    target_arch = "aarch64",
+    target_feature = "simd128"
+));
 
 /// The children's sides along one axis, seen by a ray.
 struct Slabs<'n, R> {
@@ -126,12 +141,38 @@ impl<'n, R: Real> Slabs<'n, R> {
         }
     }
 
+    /// A side as a parameter.
+    #[inline(always)]
+    fn at(&self, side: u8) -> R {
+        R::from_i32(side.into()) * self.step + self.offset
+    }
+
     /// Four sides from `AT` on as parameters.
     #[inline(always)]
     fn four<const AT: usize>(&self, sides: &[u8; WIDTH]) -> [R; 4] {
         let four = sides.get(AT..).and_then(|sides| sides.first_chunk()).unwrap_or(&[0; 4]);
-        four.map(|side| R::from_i32(side.into()) * self.step + self.offset)
+        four.map(|side| self.at(side))
     }
+}
+
+/// [`clip`] for one child.
+#[inline(always)]
+fn clip_one<R: Real>(slabs: &[Slabs<'_, R>; 3], child: usize, start: R, limit: R) -> (R, R) {
+    let (mut enter, mut leave) = (start, limit);
+    for slab in slabs {
+        let side = |sides: &[u8; WIDTH]| sides.get(child % WIDTH).copied().unwrap_or(0);
+        let (near, far) = (slab.at(side(slab.near)), slab.at(side(slab.far)));
+        if near > enter {
+            enter = near;
+        }
+        if far < leave {
+            leave = far;
+        }
+        if !(enter <= leave) {
+            break;
+        }
+    }
+    (enter, leave)
 }
 
 /// [`clip`] for four children from `AT` on.
