@@ -35,6 +35,8 @@ pub struct Wishes {
     pub huge: Option<Huge>,
     /// Whether a grid's empty cells know how far it is to the next that is not.
     pub macro_cells: Option<bool>,
+    /// Which cells of an octree are divided first.
+    pub order: Option<octree::Order>,
     /// How an octree's cells are stored.
     pub store: Option<octree::Store>,
     /// How an octree is walked.
@@ -58,7 +60,11 @@ impl Wishes {
             max_level: self.max_level.unwrap_or(octree::DEEPEST),
         };
         octree::Settings {
-            growth: octree::Growth { limits, huge: self.huge() },
+            growth: octree::Growth {
+                limits,
+                huge: self.huge(),
+                order: self.order.unwrap_or_default(),
+            },
             store: self.store.unwrap_or_default(),
             walk: self.walk.unwrap_or_default(),
         }
@@ -68,6 +74,7 @@ impl Wishes {
     fn asks_for_octree(&self) -> bool {
         self.max_objects.is_some()
             || self.max_level.is_some()
+            || self.order.is_some()
             || self.store.is_some()
             || self.walk.is_some()
     }

@@ -12,7 +12,9 @@ use kibiray::plan::{Plan, Structure, Wishes, plan};
 use kibiray::scene::{Scene, Shapes, Solids};
 use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 
-use crate::options::{AccelKind, Antialiasing, Common, Huge, MailboxKind, Store, Switch, Walk};
+use crate::options::{
+    AccelKind, Antialiasing, Common, Growth, Huge, MailboxKind, Store, Switch, Walk,
+};
 
 /// What traces on this host.
 pub type HostTracer<'a, R> = Tracer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>>;
@@ -68,6 +70,10 @@ pub fn wishes(options: &Common) -> Wishes {
         huge: options.huge.map(|huge| match huge {
             Huge::Inside => accel::Huge::Inside,
             Huge::Aside => accel::Huge::Aside,
+        }),
+        order: options.growth.map(|growth| match growth {
+            Growth::Fifo => octree::Order::Breadth,
+            Growth::Benefit => octree::Order::Benefit,
         }),
         store: options.store.map(|store| match store {
             Store::Links => octree::Store::Links,

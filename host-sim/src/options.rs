@@ -217,6 +217,9 @@ pub struct Common {
     /// a fixed resolution, as the published counts are made so]
     #[arg(long, value_enum, value_name = "SWITCH")]
     pub macro_cells: Option<Switch>,
+    /// Octree: which cells are divided first, while memory lasts [default: fifo]
+    #[arg(long, value_enum, value_name = "ORDER")]
+    pub growth: Option<Growth>,
     /// Octree: how its cells are stored [default: links]
     #[arg(long, value_enum, value_name = "KIND")]
     pub store: Option<Store>,
@@ -289,6 +292,16 @@ pub enum MailboxKind {
     Cache,
 }
 
+/// `--growth`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Growth {
+    #[value(help = "first in, first out")]
+    Fifo,
+    #[value(help = "what saves most tests for its bytes")]
+    Benefit,
+}
+
 /// `--macro-cells`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[allow(missing_docs)]
@@ -347,6 +360,7 @@ impl Common {
         let grid = self.grid.is_some() || self.macro_cells.is_some();
         let octree = self.max_objects.is_some()
             || self.max_level.is_some()
+            || self.growth.is_some()
             || self.store.is_some()
             || self.walk.is_some();
         if self.num == Number::Fixed {

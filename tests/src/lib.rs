@@ -138,7 +138,7 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     use mailbox::Kind::{Cache, Off, Stamps};
     let settings = |max_objects, max_level, huge| {
         let limits = octree::Limits { max_objects, max_level };
-        octree::Settings { growth: octree::Growth { limits, huge }, ..limits.into() }
+        octree::Settings { growth: octree::Growth { huge, ..limits.into() }, ..limits.into() }
     };
     let octree = |objects, level| Kind::Octree(settings(objects, level, Huge::Aside));
     let inside = |objects, level| Kind::Octree(settings(objects, level, Huge::Inside));
@@ -165,6 +165,11 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     ] {
         let octree = octree::Settings { store, walk, ..settings(3, 7, Huge::Aside) };
         setups.push((Kind::Octree(octree), Off, UNLIMITED));
+    }
+    for (budget, mailbox) in [(4 << 10, Off), (16 << 10, Stamps), (UNLIMITED, Cache)] {
+        let mut benefit = settings(1, 9, Huge::Aside);
+        benefit.growth.order = octree::Order::Benefit;
+        setups.push((Kind::Octree(benefit), mailbox, budget));
     }
     for mailbox in [Off, Stamps, Cache] {
         for kind in [

@@ -109,7 +109,7 @@ fn the_footprint_is_the_high_water_mark() {
         let scene = tables.scene(&polygons).unwrap();
         let stored = |max_objects, max_level, store| {
             let limits = octree::Limits { max_objects, max_level };
-            let growth = octree::Growth { limits, huge: Huge::Aside };
+            let growth = octree::Growth { huge: Huge::Aside, ..limits.into() };
             Kind::Octree(octree::Settings { growth, store, ..limits.into() })
         };
         let octree = |objects, level| stored(objects, level, octree::Store::Links);

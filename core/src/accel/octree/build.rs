@@ -33,11 +33,25 @@ pub struct Growth {
     pub limits: Limits,
     /// What is done with shapes much larger than the others.
     pub huge: Huge,
+    /// Which cells are divided first.
+    pub order: Order,
+}
+
+/// Which cells are divided first: what matters when memory does not suffice for all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// First in, first out.
+    #[default]
+    Breadth,
+    /// Those first that save most tests for the bytes they take, with rays that come from all
+    /// around; those that save none are not divided at all. How a build goes is not known
+    /// beforehand: a footprint is then what it cannot exceed.
+    Benefit,
 }
 
 impl From<Limits> for Growth {
     fn from(limits: Limits) -> Self {
-        Self { limits, huge: Huge::Inside }
+        Self { limits, huge: Huge::Inside, order: Order::Breadth }
     }
 }
 
@@ -58,7 +72,7 @@ pub enum StoppedBy {
 /// [`BuildError::TooMany`], [`BuildError::TooDeep`].
 pub(super) fn room<R: Real, S: Shapes<R>, I: Id>(
     scene: &Scene<'_, R, S>,
-    Growth { limits, huge }: Growth,
+    Growth { limits, huge, .. }: Growth,
 ) -> Result<(Lattice<R>, Aside<I>), BuildError> {
     let deepest = limits.max_level;
     if deepest > DEEPEST {
@@ -140,7 +154,11 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         let (root, max_level) = (Content::List(0), 0);
         let mut growing = Growing::<R, S, I, C> { lattice, scene, limits, root, max_level, ends };
         growing.plant(shapes, &aside);
-        let stopped_by = match growing.grow() {
+        let grown = match growth.order {
+            Order::Breadth => growing.grow(),
+            Order::Benefit => growing.grow_by_benefit(),
+        };
+        let stopped_by = match grown {
             Ok(stopped_by) => stopped_by,
             Err(Refusal::Words(count)) if !may_stop => fits(count).map(|()| StoppedBy::Memory)?,
             Err(_) => StoppedBy::Memory,
@@ -152,6 +170,14 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         let deepest = limits.max_level;
         Ok(Self { lattice, deepest, max_level, stopped_by, cells, lists, aside })
     }
+}
+
+/// What the way through the children of a cell costs more than that through a leaf, in tests.
+const STEPS: u64 = 1;
+
+/// Tests saved for a byte at the surface of a cell of some level, in parts of 2^-40.
+fn benefit(tests: u64, bytes: u64, level: u32) -> u64 {
+    (tests << 40).checked_div(bytes).unwrap_or(0) >> (2 * level)
 }
 
 /// Why a cell is not divided.
@@ -205,10 +231,8 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
                             // Few enough.
                         } else if level == self.limits.max_level {
                             stopped_by = StoppedBy::Level;
-                        } else if let Err(refusal) = self.divide(&cursor) {
-                            let Refusal::Memory = refusal else { return Err(refusal) };
-                            self.close_gaps();
-                            self.divide(&cursor)?;
+                        } else {
+                            self.divide_somehow(&cursor)?;
                         }
                     }
                     _ => {}
@@ -222,6 +246,69 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
             }
         }
         Ok(stopped_by)
+    }
+
+    /// Divides what saves most tests for its bytes first, until nothing is left that saves any or
+    /// something refuses.
+    ///
+    /// Without memory for a queue the order is approximate: all cells are gone through for ever
+    /// smaller savings, each half of the one before. What is divided in a round saves at most twice
+    /// as much for its bytes as anything else that was.
+    fn grow_by_benefit(&mut self) -> Result<StoppedBy, Refusal> {
+        let mut stopped_by = StoppedBy::Done;
+        let bytes_of_family = size_of::<C::Block>() as u64;
+        let mut least = benefit(self.ends.back_len() as u64, bytes_of_family, 0);
+        while least > 0 {
+            self.close_gaps();
+            stopped_by = StoppedBy::Done;
+            // The greatest saving that was left for later.
+            let mut greatest = 0;
+            let mut cursor = Cursor::ROOT;
+            loop {
+                match self.content(cursor.slot()) {
+                    Some(Content::Family(family)) => {
+                        cursor.down(family);
+                        continue;
+                    }
+                    Some(Content::List(place)) if self.count(place) > self.limits.max_objects => {
+                        if cursor.level() == self.limits.max_level {
+                            stopped_by = StoppedBy::Level;
+                        } else {
+                            let benefit = self.benefit_of(&cursor, place, least);
+                            if benefit >= least {
+                                self.divide_somehow(&cursor)?;
+                                continue;
+                            }
+                            greatest = greatest.max(benefit);
+                        }
+                    }
+                    _ => {}
+                }
+                if !cursor.next() {
+                    break;
+                }
+            }
+            least = greatest.min(least / 2);
+        }
+        Ok(stopped_by)
+    }
+
+    /// How much dividing a leaf saves for its bytes; when that is less than `least`, no more than
+    /// that it is so.
+    fn benefit_of(&mut self, cursor: &Cursor, place: usize, least: u64) -> u64 {
+        let count = self.count(place) as u64;
+        let block = size_of::<C::Block>() as u64;
+        // If every shape went to one child only.
+        let best = benefit(3 * count, 4 * block, cursor.level());
+        if best < least {
+            return best;
+        }
+        let entries: usize = self.counts(cursor, place).iter().sum();
+        // A child has a quarter of the surface, so of the rays that come through a cell a quarter
+        // comes through each of its children: two more leaves, and a cell that is no leaf.
+        let saved = (4 * count).saturating_sub(entries as u64 + 4 * STEPS);
+        let more = (entries as u64).saturating_sub(count) * size_of::<I>() as u64;
+        benefit(saved, 4 * (block + more), cursor.level())
     }
 
     /// What a cell is; `None` beyond the last.
@@ -249,6 +336,32 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
         list_at(lists, place).len()
     }
 
+    /// Divides a leaf, if need be after what is given up has been taken back.
+    fn divide_somehow(&mut self, cursor: &Cursor) -> Result<(), Refusal> {
+        match self.divide(cursor) {
+            Err(Refusal::Memory) => {
+                self.close_gaps();
+                self.divide(cursor)
+            }
+            result => result,
+        }
+    }
+
+    /// How many shapes of a list each child of a cell would list.
+    fn counts(&mut self, cursor: &Cursor, place: usize) -> [usize; 8] {
+        let (base, edge) = cursor.code().place(self.limits.max_level);
+        let (lattice, scene) = (self.lattice, self.scene);
+        let mut counts = [0_usize; 8];
+        let (_, lists) = self.ends.both();
+        for id in list_at(lists, place) {
+            let octants = touches(&lattice, scene, id.get(), base, edge);
+            for (octant, count) in counts.iter_mut().enumerate() {
+                *count += (octants >> octant & 1) as usize;
+            }
+        }
+        counts
+    }
+
     /// Divides a leaf; changes nothing when that does not fit.
     fn divide(&mut self, cursor: &Cursor) -> Result<(), Refusal> {
         let slot = cursor.slot();
@@ -257,14 +370,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
         let (lattice, scene) = (self.lattice, self.scene);
         let octants = |id: &I| touches(&lattice, scene, id.get(), base, edge);
 
-        let mut counts = [0_usize; 8];
-        let (_, lists) = self.ends.both();
-        for id in list_at(lists, place) {
-            let octants = octants(id);
-            for (octant, count) in counts.iter_mut().enumerate() {
-                *count += (octants >> octant & 1) as usize;
-            }
-        }
+        let counts = self.counts(cursor, place);
         let entries: usize = counts.iter().map(|count| count + usize::from(*count > 0)).sum();
         let (number, old) = (self.ends.front_len(), self.ends.back_len());
         let greatest = number.max(old + entries);

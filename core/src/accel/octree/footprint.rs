@@ -1,7 +1,7 @@
 //! How many bytes an octree takes, counted without memory.
 
 use super::Octree;
-use super::build::{Growth, room, touches};
+use super::build::{Growth, Order, room, touches};
 use super::code::{Code, DEEPEST};
 use super::storage::{Storage, most};
 use crate::accel::{BuildError, Id};
@@ -66,6 +66,12 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             most_entries = most_entries.max(lists);
             peak = peak.max(bytes::<C, I>(families, lists));
             above += level.staying;
+        }
+        if growth.order == Order::Benefit {
+            // Every list that there ever is, at once.
+            let all = levels.iter().map(|level| level.passing + level.staying).sum();
+            most_entries = all;
+            peak = bytes::<C, I>(families, all);
         }
         let greatest = most_entries.max(families.saturating_sub(1));
         BuildError::unless_above("octree list entries", greatest, most::<C::Word>())?;

@@ -19,7 +19,7 @@ mod storage;
 mod walk;
 
 pub use any::{AnyOctree, Settings, Store};
-pub use build::{Growth, Limits, StoppedBy};
+pub use build::{Growth, Limits, Order, StoppedBy};
 pub use code::DEEPEST;
 pub use storage::{Content, Hashed, Links, Storage};
 pub use walk::{By, Walk};

@@ -1,6 +1,7 @@
 //! The structures with 16 bits a number: `kibiray::accel::Any` without those for scenes of more
 //! than 65,535 shapes, which the page has not got, in half the code.
 
+use kibiray::accel::octree::{Growth, Order};
 use kibiray::accel::{self, Accel, BuildError, Bvh, Grid, Naive, Octree, Visitor};
 use kibiray::geom::Ray;
 use kibiray::memory::Arena;
@@ -23,7 +24,9 @@ impl<'m> Small<'m> {
             accel::Kind::Naive => Self::Naive(Naive::new(scene)),
             accel::Kind::Grid(cells) => Self::Grid(Grid::build(scene, cells, arena)?),
             accel::Kind::Octree(settings) => {
-                Self::Octree(Octree::build(scene, settings.growth, arena)?)
+                // The page has one order only; the other is not linked.
+                let growth = Growth { order: Order::Breadth, ..settings.growth };
+                Self::Octree(Octree::build(scene, growth, arena)?)
             }
             accel::Kind::Bvh(nodes) => Self::Bvh(Bvh::build(scene, nodes, arena)?),
         })
