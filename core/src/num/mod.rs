@@ -25,6 +25,15 @@ use bytemuck::Pod;
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// Whether processors of this kind compute four numbers at a time and pay dearly for branches they
+/// did not foresee. Where they do not, it pays to leave a test early; answers are the same.
+pub(crate) const FOURS: bool = cfg!(any(
+    target_arch = "x86_64",
+    target_arch = "x86",
+    target_arch = "aarch64",
+    target_feature = "simd128"
+));
+
 /// Three numbers of type `R`: a point, a direction or a colour.
 pub type Vec3<R> = <R as Real>::Vec3;
 

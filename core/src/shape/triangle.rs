@@ -9,7 +9,7 @@
 
 use super::{Shape, ShapeError, settle, workable};
 use crate::geom::{Aabb, Ray};
-use crate::num::{Axis, Real, Vec3, Vector};
+use crate::num::{Axis, FOURS, Real, Vec3, Vector};
 
 /// A triangle; 36 bytes in `f32`. Its front is the side from which the corners run anticlockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +29,13 @@ impl<R: Real> Triangle<R> {
     fn area_vector(&self) -> Vec3<R> {
         let [a, b, c] = self.corners;
         (b - a).cross(c - a)
+    }
+
+    /// Where a ray that passes inside meets it. Apart from the test, which then stays small enough to
+    /// be part of a loop.
+    #[inline(never)]
+    fn depth(&self, ray: &Ray<R>, weights: [R::Wide; 3], depths: [R; 3]) -> Option<R> {
+        settle(ray, Aabb::around(self.corners), R::mean(weights, depths))
     }
 
     /// The weights of the corners at a hit, each from 0 to 1 and of sum 1: barycentric coordinates.
@@ -132,10 +139,15 @@ impl<R: Real> Shape<R> for Triangle<R> {
         Aabb::around(self.corners)
     }
 
+    #[inline]
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
         let [a, b, c] = self.corners.each_ref().map(|corner| shear.apply(corner));
         let weights @ [u, v, w] = weights([a, b, c]);
         let zero = R::Wide::default();
+        // Signs differ: outside. Two of them often tell.
+        if !FOURS && ((u < zero && v > zero) || (u > zero && v < zero)) {
+            return None;
+        }
         let least = |a: R::Wide, b: R::Wide| if a < b { a } else { b };
         let greatest = |a: R::Wide, b: R::Wide| if a > b { a } else { b };
         // A number that is none passes here, and is refused as `t`.
@@ -145,8 +157,7 @@ impl<R: Real> Shape<R> for Triangle<R> {
             // Signs differ: outside. All zero: edge-on.
             return None;
         }
-        let depths = [a.2, b.2, c.2];
-        let t = settle(ray, self.bounds(), R::mean(weights, depths))?;
+        let t = self.depth(ray, weights, [a.2, b.2, c.2])?;
         (t > min && t <= max).then_some(t)
     }
 

@@ -6,7 +6,7 @@
 //! "Memory-conserving bounding volume hierarchies with coherent raytracing", CGF 25(2) (2006).
 
 use super::units::{Bounds, Course};
-use crate::num::Real;
+use crate::num::{FOURS, Real};
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
@@ -97,6 +97,7 @@ pub(super) fn clip<R: Real>(
         Slabs::of(node, z, [*z0, *z1], shift_z & 15),
     ];
     if !FOURS {
+        // It pays to stop at the first axis along which a ray passes a box by; the answer is the same.
         for (child, (near, far)) in near.iter_mut().zip(far.iter_mut()).enumerate() {
             (*near, *far) = clip_one(&slabs, child, start, limit);
         }
@@ -108,15 +109,6 @@ pub(super) fn clip<R: Real>(
     *near = join(near_0, near_4);
     *far = join(far_0, far_4);
 }
-
-/// Whether processors of this kind compute four numbers at a time. Where they do not, it pays to
-/// stop at the first axis along which a ray passes a box by; the answer is the same.
-const FOURS: bool = cfg!(any(
-    target_arch = "x86_64",
-    target_arch = "x86",
-    target_arch = "aarch64",
-    target_feature = "simd128"
-));
 
 /// The children's sides along one axis, seen by a ray.
 struct Slabs<'n, R> {
