@@ -50,7 +50,7 @@ enum What {
     /// Whole frames of the Standard Procedural Databases: kibiray, Tachyon, POV-Ray.
     Frames {
         /// The fastest of so many rounds counts.
-        #[arg(long, default_value_t = 1)]
+        #[arg(long, default_value_t = 3)]
         repeat: usize,
         /// Only these scenes.
         #[arg(long)]
@@ -67,7 +67,7 @@ fn main() -> Result<()> {
     std::fs::create_dir_all(&args.out)?;
     let all = [
         What::Rays { repeat: 5, scene: vec![] },
-        What::Frames { repeat: 1, scene: vec![] },
+        What::Frames { repeat: 3, scene: vec![] },
         What::Size,
     ];
     for what in args.what.clone().map_or(all.to_vec(), |what| vec![what]) {

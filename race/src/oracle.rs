@@ -4,6 +4,7 @@ use crate::mesh::{Mesh, V, cross, dot, sub, unit, wide};
 use crate::rays::{Query, Ray};
 
 type D = [f64; 3];
+
 /// `t` of the hit of a triangle grown by `grow` (in barycentric coordinates, and relative to
 /// the ends of the ray); a negative `grow` shrinks it.
 #[inline(always)]
@@ -62,7 +63,7 @@ const AROUND: f64 = 1e-5;
 const TOLERANCE: f64 = 1e-3;
 
 impl Oracle {
-    /// Evenly spread over the rays, as many as some 3e8 triangle tests allow, 200 to 5000.
+    /// Evenly spread over the rays, as many as so many triangle tests allow, 200 to 5000.
     pub fn new(mesh: &Mesh, rays: &[Ray], tests: f64) -> Oracle {
         let n = ((tests / mesh.len() as f64) as usize).clamp(200, 5000).min(rays.len());
         let tris: Vec<[V; 3]> = (0..mesh.len()).map(|i| mesh.triangle(i)).collect();
@@ -110,10 +111,11 @@ impl Oracle {
             if let Some(x) = hit(r, tri, EDGE) {
                 seen |= self.error(r, t, x) <= TOLERANCE;
             }
-            if let Some(x) = hit(r, tri, -EDGE) {
-                if x < t && (t == f64::INFINITY || self.error(r, t, x) > TOLERANCE) {
-                    return false;
-                }
+            if let Some(x) = hit(r, tri, -EDGE)
+                && x < t
+                && (t == f64::INFINITY || self.error(r, t, x) > TOLERANCE)
+            {
+                return false;
             }
         }
         seen

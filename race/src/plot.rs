@@ -45,7 +45,9 @@ pub fn speed(lines: &[Value]) -> Result<String> {
             }
             let title = format!("{scene}, {rays} rays");
             let axes = ["bytes a triangle, kept", "million rays a second"];
-            draw(panel, &title, axes, &curves, i == 0)?;
+            if !curves.is_empty() {
+                draw(panel, &title, axes, &curves, i == 0)?;
+            }
         }
         root.present()?;
     }
@@ -82,21 +84,32 @@ where
     D::ErrorType: 'static,
 {
     let all = || curves.iter().flat_map(|curve| &curve.points);
-    let range = |values: &mut dyn Iterator<Item = f64>, room: f64| {
-        let (lo, hi) = values.fold((f64::INFINITY, 0.0_f64), |(lo, hi), v| (lo.min(v), hi.max(v)));
-        if lo <= hi { lo / 1.3..hi * room } else { 0.5..2.0 }
+    let ends = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((f64::INFINITY, 0.0_f64), |(lo, hi), v| (lo.min(v), hi.max(v)))
     };
-    let x = range(&mut all().map(|p| p.0), 1.3);
-    // Room for the legend.
-    let y = range(&mut all().map(|p| p.1), if legend { 4.0 } else { 1.3 });
+    let (left, right) = ends(&mut all().map(|p| p.0));
+    let (low, high) = ends(&mut all().map(|p| p.1));
+    // Numbers begin at a power of ten. The legend needs room above.
+    let low = 10_f64.powf(low.log10().floor());
+    let x = left / 1.3..right * 1.3;
+    let y = low..high * if legend { 4.0 } else { 1.3 };
     let mut chart = ChartBuilder::on(area)
         .caption(title, ("sans-serif", 20))
         .margin(10)
         .x_label_area_size(44)
         .y_label_area_size(56)
         .build_cartesian_2d(x.log_scale(), y.log_scale())?;
+    let number = |x: &f64| format!("{}", (x * 1e3).round() / 1e3);
     let mut mesh = chart.configure_mesh();
-    mesh.x_desc(x_axis).y_desc(y_axis).label_style(("sans-serif", 14)).draw()?;
+    mesh.x_labels(4)
+        .y_labels(20)
+        .max_light_lines(1)
+        .x_label_formatter(&number)
+        .y_label_formatter(&number)
+        .x_desc(x_axis)
+        .y_desc(y_axis)
+        .label_style(("sans-serif", 14))
+        .draw()?;
     for curve in curves {
         let style = colour(&curve.name).stroke_width(2);
         let mut points = curve.points.clone();
@@ -130,8 +143,6 @@ fn colour(name: &str) -> PaletteColor<Palette99> {
         "obvhs 0.4 CWBVH",
         "parry3d 0.31",
         "bvh 0.13",
-        "balls",
-        "tetra",
     ];
-    Palette99::pick(known.iter().position(|k| *k == name).unwrap_or(known.len()))
+    Palette99::pick(known.iter().position(|k| *k == name).unwrap_or(usize::from(name == "tetra")))
 }

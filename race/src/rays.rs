@@ -115,13 +115,13 @@ fn shadow(mesh: &Mesh, rng: &mut Rng) -> Vec<Ray> {
 
 /// From anywhere in the box to points of edges, a quarter of them corners: cracks show there.
 fn edges(mesh: &Mesh, rng: &mut Rng) -> Vec<Ray> {
-    let mut one = |i: usize| {
+    let one = |i: usize| {
         let corners = mesh.triangle(rng.usize(0..mesh.len())).map(wide);
         let first = rng.usize(0..3);
         let (a, b) = (corners[first], corners[(first + 1) % 3]);
-        let f = if i % 4 == 0 { 0.0 } else { rng.f64() };
+        let f = if i.is_multiple_of(4) { 0.0 } else { rng.f64() };
         let o = within(mesh, rng);
         ray(o, sub([0, 1, 2].map(|k| a[k] + f * (b[k] - a[k])), o))
     };
-    (0..EDGES).map(|i| one(i)).collect()
+    (0..EDGES).map(one).collect()
 }

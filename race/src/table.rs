@@ -16,11 +16,14 @@ pub fn all(rays: &[Value], frames: &[Value], sizes: &[Value]) -> String {
             let text = |key: &str| first[key].as_str().unwrap_or_default();
             let (date, machine, command) = (text("date"), text("machine"), text("command"));
             let _ = writeln!(out, "\n## {title}\n\n{date}, {machine}, by `{command}`.\n");
-            table(lines, &mut out);
+            let ran: Vec<_> =
+                lines.iter().filter(|line| line["error"].is_null()).cloned().collect();
+            table(&ran, &mut out);
+            out.push('\n');
             for line in lines.iter().filter(|line| line["error"].is_string()) {
                 let text = |key: &str| line[key].as_str().unwrap_or_default();
                 let (scene, peer, budget) = (text("scene"), text("peer"), text("budget"));
-                let _ = writeln!(out, "\n* not run: {scene}, {peer} {budget}: {}", text("error"));
+                let _ = writeln!(out, "* not run: {scene}, {peer} {budget}: {}", text("error"));
             }
         }
     }
@@ -30,7 +33,7 @@ pub fn all(rays: &[Value], frames: &[Value], sizes: &[Value]) -> String {
 /// Values of a key in the order in which they come, each once.
 fn distinct(lines: &[Value], key: impl Fn(&Value) -> String) -> Vec<String> {
     let mut seen = vec![];
-    for line in lines.iter().filter(|line| line["error"].is_null()) {
+    for line in lines {
         let value = key(line);
         if !seen.contains(&value) {
             seen.push(value);
@@ -152,7 +155,7 @@ fn growth(lines: &[Value], out: &mut String) {
              is by the clock on the wall.\n\n\
              | scene | shapes | µs a ray | tests a ray | steps a ray | bytes a shape (peak) \
              | build, µs a reference |\n|---|---|---|---|---|---|---|\n";
-    for line in lines.iter().filter(|line| line["error"].is_null()) {
+    for line in lines {
         let _ = writeln!(
             out,
             "| {} | {} | {} | {} | {} | {} ({}) | {} |",
