@@ -90,7 +90,7 @@ where
     let (left, right) = ends(&mut all().map(|p| p.0));
     let (low, high) = ends(&mut all().map(|p| p.1));
     // Numbers begin at a power of ten. The legend needs room above.
-    let low = 10_f64.powf(low.log10().floor());
+    let low = 0.999 * 10_f64.powf(low.log10().floor());
     let x = left / 1.3..right * 1.3;
     let y = low..high * if legend { 4.0 } else { 1.3 };
     let mut chart = ChartBuilder::on(area)
