@@ -70,7 +70,12 @@ impl<I: Id> Aside<I> {
             rest = rest.union(shapes.bounds(last.get()));
             largest.pop();
         }
-        (Self { ids: largest.iter().map(|(_, id)| *id).collect() }, rest)
+        let mut ids = Vec::new();
+        for (_, id) in &largest {
+            // Never refused: both have the same room.
+            let _ = ids.push(*id);
+        }
+        (Self { ids }, rest)
     }
 
     /// How many there are.

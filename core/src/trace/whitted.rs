@@ -104,20 +104,29 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         }
     }
 
-    /// With as much stack as the depth needs.
+    /// With as much stack as the depth needs: each level leaves at most one ray behind.
     #[inline(never)]
     fn color_within<P: Probe, const DEPTH: usize>(
         &mut self,
         ray: Ray<R>,
         probe: &mut P,
     ) -> Vec3<R> {
+        self.color_of_tree(ray, &mut Vec::<_, DEPTH>::new(), probe)
+    }
+
+    /// The sum over a tree of rays.
+    #[inline(never)]
+    fn color_of_tree<P: Probe>(
+        &mut self,
+        ray: Ray<R>,
+        later: &mut VecView<Pending<R>>,
+        probe: &mut P,
+    ) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
-        // Each level leaves at most one ray behind, so it never holds more than the depth.
-        let mut later = Vec::<Pending<R>, DEPTH>::new();
         let mut now = Pending { ray: ray.with_slack(self.scene.slack()), weight: R::ONE, depth: 1 };
         loop {
             let weight = now.weight;
-            let (seen, goes_on) = self.follow(&mut now, &mut later, probe);
+            let (seen, goes_on) = self.follow(&mut now, later, probe);
             color = color + seen * weight;
             if !goes_on {
                 let Some(next) = later.pop() else { return color };
