@@ -34,7 +34,7 @@ pub enum Walk {
     /// WSCG 2000, made a loop.
     #[default]
     Descent,
-    /// The ray is cut into its pieces in the next [`SEGMENTS`] leaves before their lists are tested.
+    /// The ray is cut into its pieces in the next 16 leaves before their lists are tested.
     Segments,
 }
 
