@@ -172,30 +172,22 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     }
 }
 
-/// What the way through the children of a cell costs more than that through a leaf, in tests.
-const STEPS: u64 = 1;
-
-/// Tests saved for a byte at the surface of a cell of some level, in parts of 2^-40.
-fn benefit(tests: u64, bytes: u64, level: u32) -> u64 {
-    (tests << 40).checked_div(bytes).unwrap_or(0) >> (2 * level)
-}
-
 /// Why a cell is not divided.
-enum Refusal {
+pub(super) enum Refusal {
     Memory,
     /// The words would have to hold so much.
     Words(usize),
 }
 
-struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
+pub(super) struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
     lattice: Lattice<R>,
     scene: &'g Scene<'s, R, S>,
-    limits: Limits,
+    pub(super) limits: Limits,
     root: Content,
     /// Level of the deepest leaf.
     max_level: u32,
     /// Families at the front, lists at the back, newest nearest to the middle.
-    ends: Ends<'g, C::Block, I>,
+    pub(super) ends: Ends<'g, C::Block, I>,
 }
 
 impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S, I, C> {
@@ -248,71 +240,8 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
         Ok(stopped_by)
     }
 
-    /// Divides what saves most tests for its bytes first, until nothing is left that saves any or
-    /// something refuses.
-    ///
-    /// Without memory for a queue the order is approximate: all cells are gone through for ever
-    /// smaller savings, each half of the one before. What is divided in a round saves at most twice
-    /// as much for its bytes as anything else that was.
-    fn grow_by_benefit(&mut self) -> Result<StoppedBy, Refusal> {
-        let mut stopped_by = StoppedBy::Done;
-        let bytes_of_family = size_of::<C::Block>() as u64;
-        let mut least = benefit(self.ends.back_len() as u64, bytes_of_family, 0);
-        while least > 0 {
-            self.close_gaps();
-            stopped_by = StoppedBy::Done;
-            // The greatest saving that was left for later.
-            let mut greatest = 0;
-            let mut cursor = Cursor::ROOT;
-            loop {
-                match self.content(cursor.slot()) {
-                    Some(Content::Family(family)) => {
-                        cursor.down(family);
-                        continue;
-                    }
-                    Some(Content::List(place)) if self.count(place) > self.limits.max_objects => {
-                        if cursor.level() == self.limits.max_level {
-                            stopped_by = StoppedBy::Level;
-                        } else {
-                            let benefit = self.benefit_of(&cursor, place, least);
-                            if benefit >= least {
-                                self.divide_somehow(&cursor)?;
-                                continue;
-                            }
-                            greatest = greatest.max(benefit);
-                        }
-                    }
-                    _ => {}
-                }
-                if !cursor.next() {
-                    break;
-                }
-            }
-            least = greatest.min(least / 2);
-        }
-        Ok(stopped_by)
-    }
-
-    /// How much dividing a leaf saves for its bytes; when that is less than `least`, no more than
-    /// that it is so.
-    fn benefit_of(&mut self, cursor: &Cursor, place: usize, least: u64) -> u64 {
-        let count = self.count(place) as u64;
-        let block = size_of::<C::Block>() as u64;
-        // If every shape went to one child only.
-        let best = benefit(3 * count, 4 * block, cursor.level());
-        if best < least {
-            return best;
-        }
-        let entries: usize = self.counts(cursor, place).iter().sum();
-        // A child has a quarter of the surface, so of the rays that come through a cell a quarter
-        // comes through each of its children: two more leaves, and a cell that is no leaf.
-        let saved = (4 * count).saturating_sub(entries as u64 + 4 * STEPS);
-        let more = (entries as u64).saturating_sub(count) * size_of::<I>() as u64;
-        benefit(saved, 4 * (block + more), cursor.level())
-    }
-
     /// What a cell is; `None` beyond the last.
-    fn content(&mut self, slot: Slot) -> Option<Content> {
+    pub(super) fn content(&mut self, slot: Slot) -> Option<Content> {
         let Slot::Child(family, octant) = slot else { return Some(self.root) };
         let (families, _) = self.ends.both();
         C::words(families.get(family)?).get(octant).copied().map(Content::of)
@@ -331,13 +260,13 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
     }
 
     /// How many shapes a list has.
-    fn count(&mut self, place: usize) -> usize {
+    pub(super) fn count(&mut self, place: usize) -> usize {
         let (_, lists) = self.ends.both();
         list_at(lists, place).len()
     }
 
     /// Divides a leaf, if need be after what is given up has been taken back.
-    fn divide_somehow(&mut self, cursor: &Cursor) -> Result<(), Refusal> {
+    pub(super) fn divide_somehow(&mut self, cursor: &Cursor) -> Result<(), Refusal> {
         match self.divide(cursor) {
             Err(Refusal::Memory) => {
                 self.close_gaps();
@@ -348,7 +277,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
     }
 
     /// How many shapes of a list each child of a cell would list.
-    fn counts(&mut self, cursor: &Cursor, place: usize) -> [usize; 8] {
+    pub(super) fn counts(&mut self, cursor: &Cursor, place: usize) -> [usize; 8] {
         let (base, edge) = cursor.code().place(self.limits.max_level);
         let (lattice, scene) = (self.lattice, self.scene);
         let mut counts = [0_usize; 8];
@@ -418,7 +347,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
     }
 
     /// Moves the lists that are still needed together, oldest first, and gives up the rest.
-    fn close_gaps(&mut self) {
+    pub(super) fn close_gaps(&mut self) {
         let mut end = 0;
         let mut slot = Slot::Root;
         while let Some(content) = self.content(slot) {

@@ -11,6 +11,7 @@
 //!   own [`Accel::walk`] is [`Walk::Descent`]; [`Octree::by`] takes another.
 
 mod any;
+mod benefit;
 mod build;
 mod code;
 mod cursor;
