@@ -80,6 +80,7 @@ fn draw<R: Real>(
     let width = usize::from(image.width);
     let bands = image.rgb.chunks_mut(3 * width * BAND).zip(work.chunks_mut(width * BAND));
     share(workers, (0..=u16::MAX).step_by(BAND).zip(bands), |worker, (y, (rgb, work))| {
+        let rows = work.len() / width;
         for ((i, rgb), work) in (0..).zip(rgb.chunks_exact_mut(3)).zip(work) {
             let (x, y) = ((i % width) as u16, y + (i / width) as u16);
             let mut counters = Counters::default();
@@ -87,8 +88,9 @@ fn draw<R: Real>(
             rgb.copy_from_slice(&[color.r(), color.g(), color.b()]);
             *work = u32::try_from(counters.primitive_tests + counters.steps).unwrap_or(u32::MAX);
             worker.counters += counters;
-            bar.inc(u64::from(i % width == width - 1));
         }
+        // Once a band: the bar asks the clock every time.
+        bar.inc(rows as u64);
     });
 }
 

@@ -144,8 +144,11 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     {
         search.test(id);
     }
-    if S::UNBOUNDED && !A::HANDS_OVER_ALL && !search.is_over() {
-        search.visit_range(shapes.bounded()..shapes.count());
+    if S::UNBOUNDED && !A::HANDS_OVER_ALL {
+        let unbounded = shapes.bounded()..shapes.count();
+        if !unbounded.is_empty() && !search.is_over() {
+            search.visit_range(unbounded);
+        }
     }
     if (near || A::HANDS_OVER_ALL) && !search.is_over() {
         search.mailbox.next_ray();

@@ -138,6 +138,11 @@ impl<R: Real> Slopes<R> {
         Self { origin: ray.origin, inverse: ray.direction.map(inverse) }
     }
 
+    /// Those of a parallel ray.
+    pub(crate) fn from(self, origin: Vec3<R>) -> Self {
+        Self { origin, ..self }
+    }
+
     /// Whether the coordinate along `axis` grows (1), shrinks (-1) or stays (0).
     pub fn sign(&self, axis: Axis) -> i32 {
         let inverse = self.inverse.along(axis);

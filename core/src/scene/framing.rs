@@ -53,12 +53,17 @@ impl<R: Real> Framing<R> {
         if origin.max_abs() > far {
             let around = scene.bounds().grown(far);
             let line = scaled(origin).unwrap_or(ray);
-            match Slopes::of(&line).clip(around.lo, around.hi, -R::MAX, R::MAX) {
+            let slopes = Slopes::of(&line);
+            match slopes.clip(around.lo, around.hi, -R::MAX, R::MAX) {
                 Some((enter, _)) => {
                     origin = line.at(enter);
                     let Interval { min, max } = framing.interval;
                     framing.interval = Interval::new(min - enter, max - enter);
                     framing.shift = enter;
+                    // From there it can be told whether it meets the box of all shapes.
+                    let room = scene.bounds().grown(scene.pad());
+                    let met = slopes.from(origin).clip(room.lo, room.hi, -R::MAX, R::MAX);
+                    framing.near = met.is_some();
                 }
                 None => framing.near = false,
             }

@@ -3,6 +3,7 @@
 use super::LEVELS;
 use super::node::{WIDTH, Wide};
 use crate::num::Real;
+use heapless::Vec;
 
 /// A child still to be looked at: where the ray enters its box; its node times [`WIDTH`] plus its
 /// place there.
@@ -13,20 +14,19 @@ const MOST: usize = LEVELS * (WIDTH - 1) + 1;
 
 /// A stack that cannot overflow, as no hierarchy has more levels: 800 bytes in `f32`.
 pub(super) struct Stack<R> {
-    pending: [Pending<R>; MOST],
-    len: usize,
+    pending: Vec<Pending<R>, MOST>,
 }
 
 impl<R: Real> Stack<R> {
     pub(super) fn new() -> Self {
-        Self { pending: [(R::ZERO, 0); MOST], len: 0 }
+        Self { pending: Vec::new() }
     }
 
     /// Puts those children of a node onto the stack that are not left before they are entered, the
     /// nearest one last.
     #[inline(always)]
     pub(super) fn push(&mut self, node: usize, near: &Wide<R>, far: &Wide<R>) {
-        let waiting = self.len;
+        let waiting = self.pending.len();
         let mut hit = 0_u32;
         for (place, (near, far)) in near.iter().zip(far).enumerate() {
             hit |= u32::from(near <= far) << place;
@@ -35,8 +35,10 @@ impl<R: Real> Stack<R> {
             let place = hit.trailing_zeros();
             hit &= hit - 1;
             let t = near.get(place as usize % WIDTH).copied().unwrap_or(R::ZERO);
+            let child = (t, (node * WIDTH) as u32 + place);
             // Those that are nearer move up.
-            let mut at = self.len;
+            let mut at = self.pending.len();
+            let _ = self.pending.push(child);
             while at > waiting {
                 match self.pending.get_mut(at - 1..=at) {
                     Some([a, b]) if a.0 < t => *b = *a,
@@ -45,16 +47,14 @@ impl<R: Real> Stack<R> {
                 at -= 1;
             }
             if let Some(pending) = self.pending.get_mut(at) {
-                *pending = (t, (node * WIDTH) as u32 + place);
+                *pending = child;
             }
-            self.len += 1;
         }
     }
 
     /// Takes the last one off.
     #[inline(always)]
     pub(super) fn pop(&mut self) -> Option<Pending<R>> {
-        self.len = self.len.checked_sub(1)?;
-        self.pending.get(self.len).copied()
+        self.pending.pop()
     }
 }
