@@ -210,6 +210,14 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
             framed = Framing::of(self, ray, Interval::RAY).ray;
             &framed
         };
+        // As it was when it hit.
+        let own;
+        let ray = if ray.slack() == self.slack() {
+            ray
+        } else {
+            own = ray.with_slack(self.slack());
+            &own
+        };
         let (t, id) = (hit.local, hit.id);
         let d = ray.direction();
         let outside = self.shapes.normal(id, ray, t).unit()?;

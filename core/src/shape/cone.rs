@@ -67,7 +67,7 @@ impl<R: Real> Cone<R> {
         Hull { base, axis, height, base_radius, growth: self.growth(), apex_radius }
     }
 
-    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
+    pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
         let half = self.height * R::HALF;
         let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
         let slab = frame.slab(half)?;

@@ -58,7 +58,7 @@ impl<R: Real> Cylinder<R> {
         Hull { base, axis, height, base_radius: radius, growth: R::ZERO, apex_radius: radius }
     }
 
-    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
+    pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
         let half = self.height * R::HALF;
         let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
         let slab = frame.slab(half)?;

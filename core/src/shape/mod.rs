@@ -13,6 +13,8 @@
 mod axial;
 mod r#box;
 mod cone;
+mod convex;
+pub mod csg;
 mod cylinder;
 mod plane;
 mod polygon;
@@ -21,6 +23,8 @@ mod triangle;
 
 pub use r#box::AxisBox;
 pub use cone::Cone;
+pub use convex::Convex;
+pub use csg::Csg;
 pub use cylinder::Cylinder;
 pub use plane::Plane;
 pub use polygon::Polygon;

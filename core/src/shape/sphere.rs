@@ -45,7 +45,7 @@ impl<R: Real> Length<R> {
 
 impl<R: Real> Sphere<R> {
     /// Both crossings, the smaller first.
-    fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
+    pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
         let f = self.center - ray.origin();
         let d = ray.direction();
         // The parameter of the ray's point nearest to the centre, and from there to the centre.
