@@ -121,7 +121,7 @@ impl<R: Real> Tables<R> {
     fn empty(description: &Description) -> Self {
         let share = 1.0 / (description.lights.len().max(1) as f64).sqrt();
         let light = |l: &description::Light| Light {
-            position: vector::<R>(l.position),
+            position: R::far_point(l.position),
             color: vector::<R>(l.color.unwrap_or([share; 3])),
         };
         let view = crate::view::of(description);
@@ -348,7 +348,7 @@ fn material<R: Real>(m: &description::Material) -> Material<R> {
         color: vector::<R>(m.color),
         diffuse: R::from_f64(m.diffuse),
         specular: R::from_f64(m.specular),
-        shine: R::from_f64(m.shine),
+        shine: R::exponent(m.shine),
         transmission: R::from_f64(m.transmission),
         index: R::from_f64(m.index),
         pattern: Pattern::Plain,

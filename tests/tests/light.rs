@@ -341,7 +341,11 @@ fn acne<R: Real>() {
     let (mut shot, mut lit) = (0, 0);
     pictures::<R>(|name, size, center, solids, rays| {
         let light = |x: f64, y: f64, z: f64| Light {
-            position: v::<R>(center[0] + size * x, center[1] + size * y, center[2] + size * z),
+            position: R::far_point([
+                center[0] + size * x,
+                center[1] + size * y,
+                center[2] + size * z,
+            ]),
             color: v::<R>(1.0, 1.0, 1.0),
         };
         let lights = [light(4.0, 3.0, 5.0), light(-300.0, 0.0, 10.0), light(1.9, -1.9, 0.0)];
@@ -406,13 +410,13 @@ fn shadows_fall_behind_what_stands_in_the_light_and_nowhere_else() {
 /// than 2 · 10^-6, so the colour stays within that of what it is at 10^6, highlight included (whose
 /// power of 8 makes 8 of it).
 fn distant<R: Real>(distances: &[f64]) {
-    let shiny = Material { specular: R::HALF, shine: R::from_i32(8), ..Material::default() };
+    let shiny = Material { specular: R::HALF, shine: R::exponent(8.0), ..Material::default() };
     let (materials, paint) = ([shiny], [Paint { first: 0, material: 0 }]);
     let sphere = [Sphere::<R>::new(v::<R>(0.0, 0.0, 0.0), R::ONE)];
     let look = ray::<R>([0.2, 0.1, 5.0], [0.0, 0.0, -1.0]);
     for direction in [[0.0, 0.0, 1.0], [0.3, 0.9, 0.5], [0.57, -0.57, 0.59]] {
         let color = |distance: f64| {
-            let position = Vec3::<R>::from_f64(direction.map(|x| x * distance));
+            let position = R::far_point(direction.map(|x| x * distance));
             let lights = [Light { position, color: v::<R>(1.0, 1.0, 1.0) }];
             let scene = Scene::new(&sphere[..]).unwrap().painted(&materials, &paint).unwrap();
             let scene = scene.lit(&lights, v::<R>(0.0, 0.0, 0.0)).unwrap();

@@ -4,7 +4,7 @@
 //! known by its numbers, not by where a point happens to lie: so neither steps nor shapes can drift.
 
 use crate::geom::{Aabb, Ray, Slopes};
-use crate::num::{Axis, Real, Vec3, Vector};
+use crate::num::{Axis, Cells, Progress, Real, Vec3, Vector};
 
 /// Cells per axis at most: coordinates of cells stay exact in every number type.
 pub(crate) const MOST_CELLS: i32 = 1 << 20;
@@ -13,10 +13,7 @@ pub(crate) const MOST_CELLS: i32 = 1 << 20;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lattice<R: Real> {
     bounds: Aabb<R>,
-    /// Edge lengths of a cell.
-    cell: Vec3<R>,
-    /// Their reciprocals.
-    inverse: Vec3<R>,
+    cells: [R::Cells; 3],
     /// How far shapes reach beyond their boxes.
     pad: R,
     count: [i32; 3],
@@ -26,12 +23,10 @@ impl<R: Real> Lattice<R> {
     /// Divides a box. Counts are brought into 1 to [`MOST_CELLS`].
     pub(crate) fn new(bounds: Aabb<R>, count: [u32; 3], pad: R) -> Self {
         let count = count.map(|n| n.clamp(1, MOST_CELLS as u32) as i32);
-        let cells = Vec3::<R>::from_array(count.map(R::from_i32));
-        let size = bounds.size();
+        let ([x, y, z], [nx, ny, nz]) = (bounds.size().to_array(), count);
         Self {
             bounds,
-            cell: size.zip(cells, |size, n| size / n),
-            inverse: size.zip(cells, |size, n| if size > R::ZERO { n / size } else { R::ZERO }),
+            cells: [Cells::new(x, nx), Cells::new(y, ny), Cells::new(z, nz)],
             pad,
             count,
         }
@@ -49,11 +44,11 @@ impl<R: Real> Lattice<R> {
     /// The cells of a point, the nearest ones when it lies outside.
     pub(crate) fn cell_of(&self, p: Vec3<R>) -> [i32; 3] {
         let [nx, ny, nz] = self.count;
-        let c = (p - self.bounds.lo).scale(self.inverse);
-        // Cutting off equals rounding down for all that is not raised to 0 anyway. (`clamp` would
-        // bring a panic for a lower end above the upper one.)
-        let cell = |c: R, n: i32| c.to_i32().min(n - 1).max(0);
-        [cell(c.x(), nx), cell(c.y(), ny), cell(c.z(), nz)]
+        let [x, y, z] = (p - self.bounds.lo).to_array();
+        // (`clamp` would bring a panic for a lower end above the upper one.)
+        let cell = |cells: &R::Cells, x: R, n: i32| cells.index(x).min(n - 1).max(0);
+        let [cx, cy, cz] = &self.cells;
+        [cell(cx, x, nx), cell(cy, y, ny), cell(cz, z, nz)]
     }
 
     /// The first and the last cells that a shape's box touches, once it is padded.
@@ -64,31 +59,24 @@ impl<R: Real> Lattice<R> {
 
     /// A ray seen along each of the three axes.
     pub(crate) fn tracks(&self, ray: &Ray<R>, slopes: &Slopes<R>) -> [Track<R>; 3] {
-        Axis::ALL.map(|axis| {
-            let inverse = slopes.inverse().along(axis);
-            let start = (self.bounds.lo.along(axis) - ray.origin().along(axis)) * inverse;
-            let width = self.cell.along(axis) * inverse;
-            let count = self.count.get(axis.index()).copied().unwrap_or(0);
-            let end = start + width * R::from_i32(count);
-            let sign = slopes.sign(axis);
-            // Where even this overflows, the way along the axis is nothing.
-            if sign == 0 || !end.is_finite() {
-                // Every wall is infinitely far away.
-                return Track { sign: 0, start: R::INFINITY, width: R::ZERO };
+        let ([nx, ny, nz], [cx, cy, cz]) = (self.count, &self.cells);
+        [(Axis::X, nx, cx), (Axis::Y, ny, cy), (Axis::Z, nz, cz)].map(|(axis, count, cells)| {
+            let from = self.bounds.lo.along(axis) - ray.origin().along(axis);
+            match Progress::new(slopes.along(axis), from, cells, count) {
+                Some(walls) => Track { sign: slopes.sign(axis), walls },
+                None => Track { sign: 0, walls: R::Progress::never() },
             }
-            Track { sign, start, width }
         })
     }
 }
 
 /// A ray's way along one axis of a lattice.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Track<R> {
+pub(crate) struct Track<R: Real> {
     /// Whether cell numbers grow (1), shrink (-1) or stay (0).
     pub(crate) sign: i32,
-    /// The parameter at which the ray meets the first wall, and what lies between walls.
-    start: R,
-    width: R,
+    /// The parameters at which the ray meets walls.
+    walls: R::Progress,
 }
 
 impl<R: Real> Track<R> {
@@ -100,7 +88,7 @@ impl<R: Real> Track<R> {
     /// the last, and half a unit of the result, are at most 13 units of the scene's greatest
     /// coordinate, as rays start no farther away than four times that.
     pub(crate) fn crossing(&self, i: i32) -> R {
-        self.start + self.width * R::from_i32(i)
+        self.walls.at(i)
     }
 
     /// The parameter at which the ray leaves the cells `first..first + count`.
@@ -114,8 +102,7 @@ impl<R: Real> Track<R> {
         if self.sign != 0 {
             return self;
         }
-        let width = R::MAX / R::from_i32(2 * MOST_CELLS);
-        Self { sign: 0, start: -(width * (R::from_i32(c) + R::HALF)), width }
+        Self { sign: 0, walls: R::Progress::standing(c) }
     }
 }
 
@@ -126,7 +113,7 @@ impl<R: Real> Track<R> {
 pub(crate) fn root<R: Real>(bounds: Aabb<R>, pad: R, lower: i32, upper: i32) -> Aabb<R> {
     // Without any shape, any box will do.
     let least = if pad > R::ZERO { pad + pad } else { R::ONE };
-    let unit = R::ONE / R::from_i32(1 << 15);
-    let grow = |n: i32| bounds.size().map(|s| (s * unit * R::from_i32(n)).max(least));
+    let unit = R::fraction(1, 1 << 15);
+    let grow = |n: i32| bounds.size().map(|s| (s * unit).times_int(n).max(least));
     Aabb { lo: bounds.lo - grow(lower), hi: bounds.hi + grow(upper) }
 }

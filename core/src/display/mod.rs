@@ -6,8 +6,7 @@ use embedded_graphics_core::pixelcolor::Rgb888;
 /// A colour as 8 bits a channel: cut to 0 to 1, rounded to the nearest; not-a-number is black.
 /// Displays of other formats convert from here.
 pub fn rgb888<R: Real>(color: Vec3<R>) -> Rgb888 {
-    let channel = |c: R| (c * R::from_i32(255) + R::HALF).to_i32().clamp(0, 255) as u8;
-    Rgb888::new(channel(color.x()), channel(color.y()), channel(color.z()))
+    Rgb888::new(color.x().to_byte(), color.y().to_byte(), color.z().to_byte())
 }
 
 #[cfg(test)]

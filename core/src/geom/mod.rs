@@ -6,5 +6,4 @@ mod ray;
 
 pub use aabb::Aabb;
 pub use interval::Interval;
-pub(crate) use ray::SLACK;
 pub use ray::{NotARay, Ray, Slopes};

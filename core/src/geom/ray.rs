@@ -1,6 +1,6 @@
 //! Rays, and what a box test wants to know of them.
 
-use crate::num::{Axis, Real, Vec3, Vector};
+use crate::num::{Axis, Real, Reciprocal, Vec3, Vector};
 
 /// A half-line: the points `origin + t * direction`, `t >= 0`.
 ///
@@ -17,9 +17,6 @@ pub struct Ray<R: Real> {
     reach: R,
     slack: R,
 }
-
-/// Directions this many times longer or shorter than 1 have to be scaled first.
-const LONG: i32 = 16;
 
 /// A component is infinite or not a number, or the direction is zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +38,7 @@ impl<R: Real> Ray<R> {
     pub fn new(origin: Vec3<R>, direction: Vec3<R>) -> Result<Self, NotARay> {
         let reach = origin.max_abs();
         let ray = if origin.is_finite() { Self::from(origin, direction, reach) } else { None };
-        Ok(Self { slack: R::ulps(SLACK) * reach, ..ray.ok_or(NotARay)? })
+        Ok(Self { slack: R::ulps_at(R::SLACK, reach), ..ray.ok_or(NotARay)? })
     }
 
     /// A ray from a point whose coordinates are at most `reach`; if one is infinite or not a number,
@@ -49,8 +46,7 @@ impl<R: Real> Ray<R> {
     #[inline]
     pub(crate) fn from(origin: Vec3<R>, direction: Vec3<R>, reach: R) -> Option<Self> {
         let squared = R::narrow(direction.dot(direction));
-        let long = R::from_i32(LONG * LONG);
-        let ordinary = squared <= long && squared * long >= R::ONE;
+        let ordinary = R::is_ordinary(squared);
         let ray = Self { origin, direction, squared, reach, slack: R::ZERO };
         if ordinary && reach < R::INFINITY { Some(ray) } else { ray.extraordinary() }
     }
@@ -116,26 +112,19 @@ impl<R: Real> Ray<R> {
     }
 }
 
-/// Slack of a ray in units of the last place of its scene's size: half of what boxes are padded by.
-pub(crate) const SLACK: i32 = 32;
-
 /// The reciprocals of a ray's direction, for tests against planes across the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slopes<R: Real> {
     origin: Vec3<R>,
     /// 1 / direction; 0 along an axis the ray does not move along.
-    inverse: Vec3<R>,
+    inverse: [R::Reciprocal; 3],
 }
 
 impl<R: Real> Slopes<R> {
     /// Three divisions.
     pub fn of(ray: &Ray<R>) -> Self {
-        let inverse = |d: R| {
-            let inverse = R::ONE / d;
-            // Where the reciprocal overflows, the way along this axis is nothing.
-            if inverse.is_finite() { inverse } else { R::ZERO }
-        };
-        Self { origin: ray.origin, inverse: ray.direction.map(inverse) }
+        let inverse = ray.direction.to_array().map(Reciprocal::of);
+        Self { origin: ray.origin, inverse }
     }
 
     /// Those of a parallel ray.
@@ -145,19 +134,23 @@ impl<R: Real> Slopes<R> {
 
     /// Whether the coordinate along `axis` grows (1), shrinks (-1) or stays (0).
     pub fn sign(&self, axis: Axis) -> i32 {
-        let inverse = self.inverse.along(axis);
-        i32::from(inverse > R::ZERO) - i32::from(inverse < R::ZERO)
+        self.along(axis).sign()
     }
 
-    /// The reciprocals; 0 where the ray stays.
-    pub(crate) fn inverse(&self) -> Vec3<R> {
-        self.inverse
+    /// The reciprocal along an axis; 0 where the ray stays.
+    pub(crate) fn along(&self, axis: Axis) -> R::Reciprocal {
+        let [x, y, z] = self.inverse;
+        match axis {
+            Axis::X => x,
+            Axis::Y => y,
+            Axis::Z => z,
+        }
     }
 
     /// The parameter at which the coordinate along `axis` is `wall`; of no meaning where the ray
     /// stays ([`Slopes::sign`] 0).
     pub fn crossing(&self, axis: Axis, wall: R) -> R {
-        (wall - self.origin.along(axis)) * self.inverse.along(axis)
+        self.along(axis).times(wall - self.origin.along(axis))
     }
 
     /// The parameters between which the ray is inside the closed box `lo..=hi`, cut to

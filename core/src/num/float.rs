@@ -1,12 +1,17 @@
 //! `f32` and `f64` as [`Real`]. `f64` is the reference on the host.
 
-use super::{Real, Vector, sqrt};
+use super::{Cells, Progress, Real, Reciprocal, Vector, power, sqrt};
 
 macro_rules! float {
     ($f:ident, $vec3:ty, $bits:ident, $mantissa:expr, $sqrt:path) => {
         impl Real for $f {
             type Wide = Self;
             type Vec3 = $vec3;
+            type Exponent = Self;
+            type FarPoint = $vec3;
+            type Reciprocal = Self;
+            type Cells = FloatCells<Self>;
+            type Progress = FloatProgress<Self>;
 
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -15,6 +20,7 @@ macro_rules! float {
             const EPSILON: Self = $f::EPSILON;
             const MAX: Self = $f::MAX;
             const INFINITY: Self = $f::INFINITY;
+            const NO_POWER: Self = 1.0;
 
             fn from_f64(x: f64) -> Self {
                 x as Self
@@ -25,8 +31,26 @@ macro_rules! float {
             fn from_i32(i: i32) -> Self {
                 i as Self
             }
-            fn to_i32(self) -> i32 {
-                self as i32
+            fn fraction(a: i32, b: i32) -> Self {
+                a as Self / b as Self
+            }
+            fn times_int(self, n: i32) -> Self {
+                self * n as Self
+            }
+            fn floor_ratio(self, divisor: Self) -> i32 {
+                let ratio = self / divisor;
+                let towards_zero = ratio as i32;
+                if towards_zero as Self > ratio {
+                    towards_zero.wrapping_sub(1)
+                } else {
+                    towards_zero
+                }
+            }
+            fn proportion(self, whole: Self, n: i32) -> i32 {
+                (self / whole * n as Self) as i32
+            }
+            fn to_byte(self) -> u8 {
+                ((self * 255.0 + 0.5) as i32).clamp(0, 255) as u8
             }
             fn is_finite(self) -> bool {
                 self.is_finite()
@@ -43,13 +67,14 @@ macro_rules! float {
             fn next_down(self) -> Self {
                 self.next_down()
             }
-            fn scale_to_one(self) -> (Self, Self) {
-                // Multiplying by 2^-e is subtracting e from the exponent field. Clamped so that
-                // both factors stay normal numbers.
-                const BIAS: $bits = (1 << ($f::MAX_EXP.ilog2())) - 1;
-                let e = (self.to_bits() >> $mantissa).clamp(1, 2 * BIAS - 1);
-                let power = |e: $bits| Self::from_bits(e << $mantissa);
-                (power(2 * BIAS - e), power(e))
+            fn exponent_to_one(self) -> i32 {
+                // Clamped so that the factor and its inverse stay normal numbers.
+                const BIAS: i32 = $f::MAX_EXP - 1;
+                BIAS - ((self.to_bits() >> $mantissa) as i32).clamp(1, 2 * BIAS - 1)
+            }
+            fn ldexp(self, exponent: i32) -> Self {
+                let e = ($f::MAX_EXP - 1 + exponent) as $bits;
+                self * Self::from_bits(e << $mantissa)
             }
 
             fn times(self, rhs: Self) -> Self {
@@ -74,6 +99,116 @@ macro_rules! float {
                 let d = (bb - ac) + (bb_low - ac_low);
                 (d >= 0.0).then(|| $sqrt(d))
             }
+            fn exponent(x: f64) -> Self {
+                x as Self
+            }
+            fn is_power(exponent: Self) -> bool {
+                exponent.is_finite() && exponent >= 0.0
+            }
+            /// Of the exponent's rest, ten binary digits count.
+            fn powf(self, exponent: Self) -> Self {
+                let whole = exponent as u32;
+                power(self, whole, ((exponent - whole as Self) * 1024.0) as u32)
+            }
+
+            fn is_workable(reach: Self) -> bool {
+                let reach = reach * 16.0;
+                (reach * reach * reach).is_finite()
+            }
+            fn is_ordinary(squared: Self) -> bool {
+                // Directions 16 times longer or shorter than 1 have to be scaled first.
+                squared <= 256.0 && squared * 256.0 >= 1.0
+            }
+            fn direction_exponent(direction: $vec3) -> i32 {
+                direction.max_abs().exponent_to_one()
+            }
+            fn is_finite_wide(w: Self) -> bool {
+                w.is_finite()
+            }
+            fn is_divisor(squared: Self) -> bool {
+                (1.0 / squared).is_finite()
+            }
+
+            fn far_point(position: [f64; 3]) -> $vec3 {
+                Vector::from_f64(position)
+            }
+            fn is_usable_far(far: $vec3) -> bool {
+                Vector::is_finite(far * 4.0)
+            }
+            fn towards(from: $vec3, far: $vec3) -> $vec3 {
+                far - from
+            }
+            fn distance_to(_far: $vec3, towards: Self) -> Self {
+                towards
+            }
+            fn ulps_at(n: i32, magnitude: Self) -> Self {
+                Self::ulps(n) * magnitude
+            }
+        }
+
+        impl Reciprocal<$f> for $f {
+            fn of(d: Self) -> Self {
+                let inverse = 1.0 / d;
+                // Where the reciprocal overflows, the way along this axis is nothing.
+                if inverse.is_finite() { inverse } else { 0.0 }
+            }
+            fn sign(self) -> i32 {
+                i32::from(self > 0.0) - i32::from(self < 0.0)
+            }
+            fn times(self, x: Self) -> Self {
+                x * self
+            }
+        }
+
+        impl Cells<$f> for FloatCells<$f> {
+            fn new(extent: $f, count: i32) -> Self {
+                let n = count as $f;
+                Self { width: extent / n, per_unit: if extent > 0.0 { n / extent } else { 0.0 } }
+            }
+            fn index(&self, x: $f) -> i32 {
+                (x * self.per_unit) as i32
+            }
+        }
+
+        impl Progress<$f> for FloatProgress<$f> {
+            type Reciprocal = $f;
+            type Cells = FloatCells<$f>;
+
+            fn new(inverse: $f, from: $f, cells: &FloatCells<$f>, count: i32) -> Option<Self> {
+                let (start, width) = (from * inverse, cells.width * inverse);
+                let end = start + width * count as $f;
+                // Where even this overflows, the way along the axis is nothing.
+                (inverse.sign() != 0 && end.is_finite()).then_some(Self { start, width })
+            }
+            fn steep(direction: $f, from: $f, cells: &FloatCells<$f>) -> Self {
+                // A ray less inclined than that does not move along the axis: across the scene it
+                // would come by less than a rounding error. So nothing is infinite, and where a ray
+                // stays between two sides it enters and leaves them far beyond both ends of the scene.
+                const STEEPEST: $f = 1.0 / ($f::EPSILON * $f::EPSILON);
+                let inverse = (1.0 / direction).abs();
+                // Neither is what is not a number.
+                let inverse = if inverse < STEEPEST { inverse } else { STEEPEST };
+                let inverse = if direction < 0.0 { -inverse } else { inverse };
+                Self { start: from * inverse, width: cells.width * inverse }
+            }
+            fn never() -> Self {
+                Self { start: $f::INFINITY, width: 0.0 }
+            }
+            fn standing(cell: i32) -> Self {
+                const WIDTH: $f = $f::MAX / (1 << 21) as $f;
+                Self { start: -(WIDTH * (cell as $f + 0.5)), width: WIDTH }
+            }
+            #[inline(always)]
+            fn at(&self, i: i32) -> $f {
+                self.start + self.width * i as $f
+            }
+            #[inline(always)]
+            fn rebased(&self, origin: i32, shift: u8) -> Self {
+                Self {
+                    start: self.start + self.width * origin as $f,
+                    width: self.width * (1_i32 << shift) as $f,
+                }
+            }
         }
 
         impl Vector<$f> for $vec3 {
@@ -91,6 +226,22 @@ macro_rules! float {
             }
         }
     };
+}
+
+/// An extent divided into equal cells.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FloatCells<R> {
+    width: R,
+    /// Its reciprocal; 0 where there is no extent.
+    per_unit: R,
+}
+
+/// Parameters at which a ray meets walls at equal distances.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FloatProgress<R> {
+    /// The first, and what lies between two.
+    start: R,
+    width: R,
 }
 
 /// A product as rounded value and exact rest, without a fused multiply-add.
@@ -137,21 +288,21 @@ mod tests {
     }
 
     #[test]
-    fn scale_to_one_is_an_exact_power_of_two() {
+    fn scaling_to_one_is_exact() {
         for x in [1.0e-30_f32, 0.3, 1.0, 1.5, 7.9, 1.0e38] {
-            let (down, up) = x.scale_to_one();
-            assert_eq!(down * up, 1.0);
-            assert!((1.0..2.0).contains(&(x * down)), "{x}");
+            let e = x.exponent_to_one();
+            assert_eq!(x.ldexp(e).ldexp(-e), x);
+            assert!((1.0..2.0).contains(&x.ldexp(e)), "{x}");
         }
         for x in [1.0e-300_f64, 0.3, 1.0, 7.9, 1.0e300] {
-            let (down, up) = x.scale_to_one();
-            assert_eq!(down * up, 1.0);
-            assert!((1.0..2.0).contains(&(x * down)), "{x}");
+            let e = x.exponent_to_one();
+            assert_eq!(x.ldexp(e).ldexp(-e), x);
+            assert!((1.0..2.0).contains(&x.ldexp(e)), "{x}");
         }
         // The ends of the range come as near as a normal factor can bring them.
         for x in [f32::from_bits(1), f32::MAX] {
-            let (down, up) = x.scale_to_one();
-            assert!(down.is_normal() && up.is_normal());
+            let e = x.exponent_to_one();
+            assert!(1.0_f32.ldexp(e).is_normal() && 1.0_f32.ldexp(-e).is_normal());
         }
     }
 
@@ -198,9 +349,10 @@ mod tests {
 
     #[test]
     fn conversion_to_whole_numbers_saturates() {
-        assert_eq!(Real::to_i32(f32::NAN), 0);
-        assert_eq!(Real::to_i32(1.0e20_f32), i32::MAX);
-        assert_eq!(Real::to_i32(-1.0e20_f64), i32::MIN);
-        assert_eq!(Real::to_i32(-0.7_f64), 0);
+        assert_eq!(f32::NAN.floor_ratio(1.0), 0);
+        assert_eq!(1.0e20_f32.floor_ratio(1.0), i32::MAX);
+        assert_eq!((-0.7_f64).floor_ratio(1.0), -1);
+        assert_eq!(f32::NAN.to_byte(), 0);
+        assert_eq!(1.0e20_f32.to_byte(), 255);
     }
 }

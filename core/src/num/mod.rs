@@ -9,16 +9,25 @@
 //!   so that signs of such sums are exact;
 //! * [`Real::Vec3`]: three `R` (glam's for floats).
 //!
+//! Besides these, what would not fit a fixed-point `R` has a type of its own: reciprocals
+//! ([`Reciprocal`]), walls of a lattice along a ray ([`Progress`]), cosine powers
+//! ([`Real::Exponent`]) and places of lights ([`Real::FarPoint`]).
+//!
 //! # What keeps the bits equal on every target
 //! Only `+ - * /`, comparisons, conversions and the correctly rounded square root touch a number on
 //! the way of a ray. Rust neither fuses nor reorders them. Minimum and maximum are written as
 //! comparisons, because the IEEE operations leave the sign of a zero open. Tangents and
 //! powers are made of these, too.
 
+pub mod fixed;
 mod float;
+mod linear;
 mod sqrt;
 mod vector;
 
+pub use fixed::Fixed;
+pub use float::FloatProgress;
+pub use linear::{Cells, Progress, Reciprocal};
 pub use vector::{Axis, Vector};
 
 use bytemuck::Pod;
@@ -69,6 +78,16 @@ pub trait Real:
     type Wide: Wide;
     /// Three numbers.
     type Vec3: Vector<Self>;
+    /// A cosine power, usually 1 to some hundreds.
+    type Exponent: Copy + Debug + PartialEq + Send + Sync;
+    /// A point that may be far outside the scene.
+    type FarPoint: Copy + Debug + PartialEq + Send + Sync;
+    /// 1 / d for a component of a direction.
+    type Reciprocal: Reciprocal<Self>;
+    /// An extent divided into equal cells.
+    type Cells: Cells<Self>;
+    /// Walls at equal distances along a ray.
+    type Progress: Progress<Self, Reciprocal = Self::Reciprocal, Cells = Self::Cells>;
 
     /// 0.
     const ZERO: Self;
@@ -84,24 +103,37 @@ pub trait Real:
     const MAX: Self;
     /// Beyond every distance: the far end of a ray that has none.
     const INFINITY: Self;
+    /// The power that changes nothing, 1.
+    const NO_POWER: Self::Exponent;
+    /// Whether sums of products are exact, so that differences of them lose nothing.
+    const EXACT: bool = false;
+    /// Slack of a ray ([`Ray::slack`](crate::geom::Ray::slack)) in units of the last place of its
+    /// scene's size: half of what boxes are padded by.
+    const SLACK: i32 = 32;
+    /// Bound of a hit point's error, in units of the last place of the coordinates involved: t, its
+    /// product with the direction and the sum each add up to half a unit, a shape's own test up to
+    /// two; doubled.
+    const POINT_ERROR: i32 = 8;
+    /// Rays that start more than so many times the scene's greatest coordinate away from the middle
+    /// are moved nearer first.
+    const FAR: i32 = 4;
 
     /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
     /// The value as `f64`, exact for all types up to 64 bits of float and 32 of fixed point.
     fn to_f64(self) -> f64;
-    /// A small whole number, exact up to 2^24.
+    /// A whole number from -7 to 7; floats take more, exact up to 2^24.
     fn from_i32(i: i32) -> Self;
-    /// Rounds towards 0; out of range gives the nearest end, not-a-number gives 0.
-    fn to_i32(self) -> i32;
-    /// Rounds down; out of range and not-a-number as [`Real::to_i32`].
-    fn floor_to_i32(self) -> i32 {
-        let towards_zero = self.to_i32();
-        if Self::from_i32(towards_zero) > self {
-            towards_zero.wrapping_sub(1)
-        } else {
-            towards_zero
-        }
-    }
+    /// The nearest number to `a / b`, for `b > 0`.
+    fn fraction(a: i32, b: i32) -> Self;
+    /// `self` times a whole number.
+    fn times_int(self, n: i32) -> Self;
+    /// The whole number below `self / divisor`; out of range the nearest end, not-a-number gives 0.
+    fn floor_ratio(self, divisor: Self) -> i32;
+    /// `self / whole` in parts of `n`, rounded towards 0.
+    fn proportion(self, whole: Self, n: i32) -> i32;
+    /// 0 to 1 as 0 to 255, rounded; beyond it the nearest end, not-a-number gives 0.
+    fn to_byte(self) -> u8;
     /// Neither infinite nor not-a-number.
     fn is_finite(self) -> bool;
     /// The square root, correctly rounded; of a negative number: not-a-number, or 0 where the
@@ -111,9 +143,12 @@ pub trait Real:
     fn next_up(self) -> Self;
     /// The next smaller number.
     fn next_down(self) -> Self;
-    /// The power of two that brings `self > 0` into [1, 2) when multiplied with it, or as near as
-    /// factors go at the ends of the range; the factor and its inverse, both exact.
-    fn scale_to_one(self) -> (Self, Self);
+    /// The exponent of the power of two that brings `self > 0` into [1, 2) when multiplied with it,
+    /// or as near as factors go at the ends of the range.
+    fn exponent_to_one(self) -> i32;
+    /// `self` times 2 to the power `exponent`, which is one of [`Real::exponent_to_one`] or its
+    /// opposite.
+    fn ldexp(self, exponent: i32) -> Self;
 
     /// The product of two numbers, in full.
     fn times(self, rhs: Self) -> Self::Wide;
@@ -164,36 +199,70 @@ pub trait Real:
         }
         if steep { divisor / x } else { x / divisor }
     }
-    /// `self` to the power `exponent >= 0`, for `self` in 0 to 1: what highlights need. Whole powers
-    /// by squaring, the rest of the exponent by square roots, down to 1/1024, so that the result is
-    /// off by less than 1/2700; only operations that give the same bits everywhere.
-    fn powf(self, exponent: Self) -> Self {
-        let whole = exponent.floor_to_i32();
-        let mut power = Self::ONE;
-        let (mut square, mut digits) = (self, whole);
-        while digits > 0 {
-            if digits & 1 == 1 {
-                power = power * square;
-            }
-            square = square * square;
-            digits >>= 1;
-        }
-        let (mut root, mut rest) = (self, exponent - Self::from_i32(whole));
-        for _ in 0..10 {
-            if !(rest > Self::ZERO) {
-                break;
-            }
-            root = root.sqrt();
-            rest = rest + rest;
-            if rest >= Self::ONE {
-                power = power * root;
-                rest = rest - Self::ONE;
-            }
-        }
-        power
+    /// The nearest cosine power.
+    fn exponent(x: f64) -> Self::Exponent;
+    /// Whether it is one: finite and not negative.
+    fn is_power(exponent: Self::Exponent) -> bool;
+    /// `self` to a power, for `self` in 0 to 1: what highlights need. Off by less than 1/2700.
+    fn powf(self, exponent: Self::Exponent) -> Self;
+
+    /// Whether coordinates up to `reach` can be computed with: tests of shapes form products of
+    /// three lengths, each up to the distance from which rays are shot.
+    fn is_workable(reach: Self) -> bool;
+    /// The same for components of a vector of which only the direction counts.
+    fn is_workable_normal(reach: Self) -> bool {
+        Self::is_workable(reach)
     }
+    /// Whether directions with that squared length need no scaling.
+    fn is_ordinary(squared: Self) -> bool;
+    /// The exponent of the power of two that makes a direction ordinary.
+    fn direction_exponent(direction: Self::Vec3) -> i32;
+    /// Whether a sum of products is finite.
+    fn is_finite_wide(_w: Self::Wide) -> bool {
+        true
+    }
+    /// Whether 1 / `squared` can be computed with, for a sum of squares.
+    fn is_divisor(squared: Self::Wide) -> bool {
+        squared > Self::Wide::default()
+    }
+
+    /// The nearest far point.
+    fn far_point(position: [f64; 3]) -> Self::FarPoint;
+    /// Whether it can be computed with.
+    fn is_usable_far(far: Self::FarPoint) -> bool;
+    /// The way to a far point, or a power of two of it.
+    fn towards(from: Self::Vec3, far: Self::FarPoint) -> Self::Vec3;
+    /// The distance for the length of what [`Real::towards`] gives.
+    fn distance_to(far: Self::FarPoint, towards: Self) -> Self;
     /// `n` units in the last place of 1.
     fn ulps(n: i32) -> Self {
-        Self::EPSILON * Self::from_i32(n)
+        Self::EPSILON.times_int(n)
     }
+    /// `n` units in the last place of numbers of that magnitude; of a fixed-point type all numbers
+    /// have the same.
+    fn ulps_at(n: i32, magnitude: Self) -> Self;
+}
+
+/// `base`, 0 to 1, to the power `whole + rest / 1024`. Whole powers by squaring, the rest by square
+/// roots: only operations that give the same bits everywhere.
+fn power<R: Real>(base: R, whole: u32, rest: u32) -> R {
+    let mut power = R::ONE;
+    let (mut square, mut digits) = (base, whole);
+    while digits > 0 {
+        if digits & 1 == 1 {
+            power = power * square;
+        }
+        square = square * square;
+        digits >>= 1;
+    }
+    let (mut root, mut rest) = (base, rest & 1023);
+    while rest > 0 {
+        root = root.sqrt();
+        rest <<= 1;
+        if rest & 1024 != 0 {
+            power = power * root;
+        }
+        rest &= 1023;
+    }
+    power
 }

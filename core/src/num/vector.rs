@@ -121,6 +121,10 @@ pub trait Vector<R: Real<Vec3 = Self>>:
             f(self.x(), other.y(), self.y(), other.x()),
         )
     }
+    /// The vector product, or a positive multiple of it where a fixed-point type would lose it.
+    fn across(self, other: Self) -> Self {
+        self.cross(other)
+    }
     /// The length.
     fn length(self) -> R {
         R::sqrt_wide(self.dot(self))
@@ -169,6 +173,7 @@ fn unit_of_any_length<R: Real>(v: R::Vec3) -> Option<R::Vec3> {
     if !(m > R::ZERO && v.is_finite()) {
         return None;
     }
-    let v = v * m.scale_to_one().0;
+    let exponent = m.exponent_to_one();
+    let v = v.map(|x| x.ldexp(exponent));
     Some(v * (R::ONE / v.length()))
 }

@@ -12,8 +12,8 @@ use crate::num::{Real, Vec3, Vector};
 pub(crate) struct Framing<R: Real> {
     pub(crate) ray: Ray<R>,
     pub(crate) interval: Interval<R>,
-    /// Factor of the direction, a power of two.
-    scale: R,
+    /// Exponent of the factor of the direction, a power of two.
+    exponent: i32,
     /// Parameter of the new origin, before scaling back.
     shift: R,
     /// Whether the ray comes near the bounded shapes at all.
@@ -35,7 +35,7 @@ impl<R: Real> Framing<R> {
         asked: Interval<R>,
     ) -> Self {
         let (ray, far) = (ray.with_slack(scene.slack()), scene.far());
-        let mut framing = Self { ray, interval: asked, scale: R::ONE, shift: R::ZERO, near: true };
+        let mut framing = Self { ray, interval: asked, exponent: 0, shift: R::ZERO, near: true };
         // Where no number lies between the bounds, moving must not make room for some.
         if !(asked.min.next_up() < asked.max) {
             framing.interval = Interval::new(R::ZERO, R::ZERO);
@@ -44,10 +44,11 @@ impl<R: Real> Framing<R> {
         }
         let (mut origin, mut direction) = (ray.origin(), ray.direction());
         if ray.reach() == R::INFINITY {
-            let (down, up) = direction.max_abs().scale_to_one();
-            direction = direction * down;
-            framing.interval = Interval::new(asked.min * up, asked.max * up);
-            framing.scale = down;
+            let exponent = R::direction_exponent(direction);
+            direction = direction.map(|d| d.ldexp(exponent));
+            framing.interval =
+                Interval::new(asked.min.ldexp(-exponent), asked.max.ldexp(-exponent));
+            framing.exponent = exponent;
         }
         let scaled = |origin: Vec3<R>| Ray::from(origin, direction, origin.max_abs());
         if origin.max_abs() > far {
@@ -58,7 +59,8 @@ impl<R: Real> Framing<R> {
                 Some((enter, _)) => {
                     origin = line.at(enter);
                     let Interval { min, max } = framing.interval;
-                    framing.interval = Interval::new(min - enter, max - enter);
+                    let less = |t: R| if t.is_finite() { t - enter } else { t };
+                    framing.interval = Interval::new(less(min), less(max));
                     framing.shift = enter;
                     // From there it can be told whether it meets the box of all shapes.
                     let room = scene.bounds().grown(scene.pad());
@@ -74,7 +76,7 @@ impl<R: Real> Framing<R> {
 
     /// A parameter of the traced ray as one of the ray that was asked for.
     pub(crate) fn restore(&self, asked: Interval<R>, t: R) -> R {
-        let t = (t + self.shift) * self.scale;
+        let t = (t + self.shift).ldexp(self.exponent);
         t.clamp(asked.min.next_up(), asked.max.next_down())
     }
 }

@@ -24,7 +24,7 @@ pub struct Material<R: Real> {
     /// Ks: share that is reflected like in a mirror, and strength of highlights.
     pub specular: R,
     /// Phong's cosine power of highlights.
-    pub shine: R,
+    pub shine: R::Exponent,
     /// T: share that goes through.
     pub transmission: R,
     /// Index of refraction; 0 or 1: light goes straight on.
@@ -47,7 +47,7 @@ impl<R: Real> Material<R> {
             color,
             diffuse: R::ONE,
             specular: R::ZERO,
-            shine: R::ONE,
+            shine: R::NO_POWER,
             transmission: R::ZERO,
             index: R::ONE,
             pattern: Pattern::Plain,
@@ -55,14 +55,15 @@ impl<R: Real> Material<R> {
     }
 
     pub(super) fn is_usable(&self) -> bool {
-        let shares = [self.diffuse, self.specular, self.shine, self.transmission, self.index];
+        let shares = [self.diffuse, self.specular, self.transmission, self.index];
         let pattern = match self.pattern {
             Pattern::Plain => true,
             Pattern::Checker(edge, color) => {
-                edge > R::ZERO && (R::ONE / edge).is_finite() && color.is_finite()
+                edge > R::ZERO && R::ONE.floor_ratio(edge) < i32::MAX && color.is_finite()
             }
         };
         let shares = shares.iter().all(|s| s.is_finite() && *s >= R::ZERO);
+        let shares = shares && R::is_power(self.shine);
         self.color.is_finite() && shares && pattern
     }
 
@@ -72,7 +73,7 @@ impl<R: Real> Material<R> {
             Pattern::Plain => self.color,
             Pattern::Checker(edge, other) => {
                 let (u, v) = normal.major_axis().others();
-                let square = |axis| (point.along(axis) / edge).floor_to_i32();
+                let square = |axis| point.along(axis).floor_ratio(edge);
                 if (square(u) ^ square(v)) & 1 == 0 { self.color } else { other }
             }
         }
@@ -83,7 +84,7 @@ impl<R: Real> Material<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light<R: Real> {
     /// Where it stands.
-    pub position: Vec3<R>,
+    pub position: R::FarPoint,
     /// Its colour and strength.
     pub color: Vec3<R>,
 }

@@ -14,7 +14,7 @@ pub use shapes::Shapes;
 pub use solids::{Solids, Triangles};
 
 use crate::accel::Hit;
-use crate::geom::{Aabb, Interval, Ray, SLACK};
+use crate::geom::{Aabb, Interval, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::shape::ShapeError;
 
@@ -143,8 +143,7 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
     /// # Errors
     /// [`SceneError::Light`]. A background that is not a number is drawn black.
     pub fn lit(self, lights: &'a [Light<R>], background: Vec3<R>) -> Result<Self, SceneError> {
-        let four = R::from_i32(4);
-        let usable = |l: &Light<R>| (l.position * four).is_finite() && l.color.is_finite();
+        let usable = |l: &Light<R>| R::is_usable_far(l.position) && l.color.is_finite();
         if let Some(index) = lights.iter().position(|l| !usable(l)) {
             return Err(SceneError::Light { index });
         }
@@ -170,12 +169,12 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
 
     /// How far outside its box a shape may be hit.
     pub fn slack(&self) -> R {
-        R::ulps(SLACK) * self.scale
+        R::ulps_at(R::SLACK, self.scale)
     }
 
     /// Rays that start farther away than this are moved nearer first.
     pub(crate) fn far(&self) -> R {
-        self.scale * R::from_i32(4)
+        self.scale.times_int(R::FAR)
     }
 
     /// The point lights.
@@ -231,7 +230,7 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         };
         let point = ray.at(t);
         let reach = point.max_abs();
-        let error = R::ulps(POINT_ERROR) * ray.reach().max(reach);
+        let error = R::ulps_at(R::POINT_ERROR, ray.reach().max(reach));
         Some(Surface { point, normal, shading, front, error, reach: reach + error })
     }
 }
@@ -253,8 +252,3 @@ pub struct Surface<R: Real> {
     /// At least the greatest coordinate of where rays start from here.
     pub(crate) reach: R,
 }
-
-/// Bound of a hit point's error, in units of the last place of the coordinates involved: t, its
-/// product with the direction and the sum each add up to half a unit, a shape's own test up to two;
-/// doubled.
-const POINT_ERROR: i32 = 8;

@@ -1,6 +1,6 @@
 //! What the solids around an axis share: their hull, and a ray as the axis sees it.
 
-use super::{Length, ShapeError, settle, workable};
+use super::{Length, ShapeError, settle};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, Real, Vec3, Vector};
 
@@ -39,7 +39,7 @@ impl<R: Real> Hull<R> {
         let apex = base + axis * height;
         let (b, a) = (tilt * base_radius, tilt * apex_radius);
         let all = Aabb::around([base - b, base + b, apex - a, apex + a]);
-        let all = all.grown(R::ulps(2) * (height + base_radius.max(apex_radius)));
+        let all = all.grown(R::ulps_at(2, height + base_radius.max(apex_radius)));
         Aabb { lo: all.lo.map(R::next_down), hi: all.hi.map(R::next_up) }
     }
 
@@ -47,11 +47,11 @@ impl<R: Real> Hull<R> {
     pub(super) fn check(&self, radii: R) -> Result<(), ShapeError> {
         let reach = self.base.max_abs() + self.height.abs() + radii;
         let negative = |x| x < R::ZERO;
-        if !(self.base.is_finite() && self.axis.is_finite() && workable(reach)) {
+        if !(self.base.is_finite() && self.axis.is_finite() && R::is_workable(reach)) {
             Err(ShapeError::NotFinite)
         } else if [self.height, self.base_radius, self.apex_radius].into_iter().any(negative) {
             Err(ShapeError::Negative)
-        } else if !(self.height > R::ZERO && R::narrow(radii.times(radii)) > R::ZERO) {
+        } else if !(self.height > R::ZERO && radii.times(radii) > R::Wide::default()) {
             Err(ShapeError::Degenerate)
         } else if !is_unit::<R>(self.axis) {
             Err(ShapeError::NotUnit)
@@ -86,7 +86,7 @@ impl<R: Real> Hull<R> {
     /// there is nothing left of them below 40.
     fn is_close(&self, p: Vec3<R>, slack: R) -> bool {
         let size = self.height + self.base_radius.max(self.apex_radius);
-        let margin = slack * R::HALF - R::ulps(20) * size;
+        let margin = slack * R::HALF - R::ulps_at(20, size);
         // Squares of less have no digits left to compare.
         if !(margin > R::EPSILON * R::EPSILON) {
             return false;

@@ -2,7 +2,7 @@
 //!
 //! T. L. Kay and J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986; see [`Slopes::clip`].
 
-use super::{Shape, ShapeError, workable};
+use super::{Shape, ShapeError};
 use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Axis, Real, Vec3, Vector};
 
@@ -32,7 +32,8 @@ impl<R: Real> Shape<R> for AxisBox<R> {
     }
 
     fn check(&self) -> Result<(), ShapeError> {
-        if !(self.lo.is_finite() && self.hi.is_finite() && workable(self.bounds().max_abs())) {
+        if !(self.lo.is_finite() && self.hi.is_finite() && R::is_workable(self.bounds().max_abs()))
+        {
             return Err(ShapeError::NotFinite);
         }
         let size = self.bounds().size().to_array();

@@ -8,7 +8,7 @@
 //! has a = 0 and one root at infinity. The ends are planes as for the cylinder.
 
 use super::axial::{Frame, Hull, Part, Passage, axis_between};
-use super::{Length, Shape, ShapeError, workable};
+use super::{Length, Shape, ShapeError};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -147,7 +147,7 @@ impl<R: Real> Shape<R> for Cone<R> {
 
     fn check(&self) -> Result<(), ShapeError> {
         self.hull().check(self.base_radius.abs() + self.apex_radius.abs())?;
-        if workable(self.growth()) { Ok(()) } else { Err(ShapeError::NotFinite) }
+        if R::is_workable(self.growth()) { Ok(()) } else { Err(ShapeError::NotFinite) }
     }
 
     fn bounds(&self) -> Aabb<R> {

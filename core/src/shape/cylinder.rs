@@ -70,9 +70,15 @@ impl<R: Real> Cylinder<R> {
     fn wall(&self, frame: &Frame<R>) -> Option<(R, R)> {
         let rr = self.radius.times(self.radius);
         let dd = frame.d.dot(frame.d);
-        if !(R::ONE / R::narrow(dd)).is_finite() {
+        if !R::is_divisor(dd) {
             // Along the axis: inside for ever or never.
             return (frame.q.dot(frame.q) <= rr).then_some((-R::INFINITY, R::INFINITY));
+        }
+        if R::EXACT {
+            // Nothing is lost in the textbook's form, and no part of it leaves the range.
+            let b = -frame.q.dot(frame.d);
+            let root = R::root(dd, b, frame.q.dot(frame.q) - rr)?;
+            return Some((R::ratio(b - root, dd), R::ratio(b + root, dd)));
         }
         let middle = -R::ratio(frame.q.dot(frame.d), dd);
         let across = frame.q + frame.d * middle;

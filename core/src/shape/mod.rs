@@ -35,7 +35,7 @@ use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Real, Vec3};
 
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 
 /// Why a shape cannot be part of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,11 +127,4 @@ fn move_into<R: Real>(ray: &Ray<R>, bounds: Aabb<R>, t: R) -> Option<R> {
     }
     let (enter, leave) = Slopes::of(ray).clip(bounds.lo, bounds.hi, -R::MAX, R::MAX)?;
     Some(t.clamp(enter, leave))
-}
-
-/// Whether coordinates up to `reach` can be computed with: tests of shapes form products of three
-/// lengths, each up to the distance from which rays are shot.
-pub(crate) fn workable<R: Real>(reach: R) -> bool {
-    let reach = reach * R::from_i32(16);
-    (reach * reach * reach).is_finite()
 }

@@ -1,6 +1,6 @@
 //! The infinite plane.
 
-use super::{Shape, ShapeError, workable};
+use super::{Shape, ShapeError};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -32,11 +32,11 @@ impl<R: Real> Shape<R> for Plane<R> {
         let n = self.normal;
         if !(self.point.is_finite()
             && n.is_finite()
-            && workable(self.point.max_abs())
-            && workable(n.max_abs()))
+            && R::is_workable(self.point.max_abs())
+            && R::is_workable_normal(n.max_abs()))
         {
             Err(ShapeError::NotFinite)
-        } else if R::narrow(n.dot(n)) > R::ZERO {
+        } else if n.dot(n) > R::Wide::default() {
             Ok(())
         } else {
             Err(ShapeError::NotUnit)

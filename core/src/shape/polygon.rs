@@ -8,7 +8,7 @@
 //! (I. Sutherland, R. Sproull, R. Schumacker, ACM Computing Surveys 6(1), 1974, appendix).
 
 use super::triangle::edge;
-use super::{Shape, ShapeError, Shear, settle, workable};
+use super::{Shape, ShapeError, Shear, settle};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -38,10 +38,11 @@ impl<'a, R: Real> Polygon<'a, R> {
         if !(size > R::ZERO) {
             return Self { vertices, normal: Vec3::<R>::default(), bounds };
         }
-        // Scaled before the products, so that tiny polygons keep theirs.
-        let area = newell::<R>(vertices, size.scale_to_one().0);
+        // Scaled to less than 1 before the products, so that tiny polygons keep theirs.
+        let area = newell::<R>(vertices, size.exponent_to_one() - 1);
         let size = area.max_abs();
-        let normal = if size > R::ZERO { area * size.scale_to_one().0 } else { area };
+        let normal =
+            if size > R::ZERO { area.map(|a| a.ldexp(size.exponent_to_one())) } else { area };
         Self { vertices, normal, bounds }
     }
 
@@ -79,13 +80,13 @@ impl<'a, R: Real> Polygon<'a, R> {
 
 /// Twice the area vector of an outline after scaling. Taken from the first corner, so that it loses
 /// nothing far from the origin.
-fn newell<R: Real>(vertices: &[Vec3<R>], scale: R) -> Vec3<R> {
+fn newell<R: Real>(vertices: &[Vec3<R>], exponent: i32) -> Vec3<R> {
     let zero = Vec3::<R>::default();
     let Some(first) = vertices.first() else { return zero };
     let mut a = zero;
     let mut sum = zero;
     for v in vertices {
-        let b = (*v - *first) * scale;
+        let b = (*v - *first).map(|x| x.ldexp(exponent));
         sum = sum + a.cross(b);
         a = b;
     }
@@ -106,15 +107,15 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
             Err(ShapeError::TooFewCorners)
         } else if !(self.vertices.iter().all(|c| c.is_finite())
             && n.is_finite()
-            && workable(bounds.max_abs())
+            && R::is_workable(bounds.max_abs())
             && bounds == self.bounds
-            && workable(n.max_abs()))
+            && R::is_workable_normal(n.max_abs()))
         {
             Err(ShapeError::NotFinite)
-        } else if newell::<R>(self.vertices, R::ONE / R::from_i32(16)).is_zero() {
+        } else if !R::EXACT && newell::<R>(self.vertices, -4).is_zero() {
             // A ray inside forms products over parts of the outline, which must not vanish.
             Err(ShapeError::Degenerate)
-        } else if R::narrow(n.dot(n)) > R::ZERO {
+        } else if n.dot(n) > R::Wide::default() {
             Ok(())
         } else {
             Err(ShapeError::NotUnit)

@@ -5,7 +5,7 @@
 //! ray instead of from b² - ac, so that distant small spheres do not drown in cancellation; of the
 //! two solutions the one without cancellation is computed first and gives the other.
 
-use super::{Shape, ShapeError, workable};
+use super::{Shape, ShapeError};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -57,6 +57,11 @@ impl<R: Real> Sphere<R> {
             return None;
         }
         let half = R::sqrt_wide(discriminant) * length.inverse;
+        if R::EXACT {
+            // The length's rounding is taken back where it shows: along the ray.
+            let middle = middle + R::narrow(across.dot(d)) * length.inverse_squared;
+            return Some((middle - half, middle + half));
+        }
         let outer = if middle >= R::ZERO { middle + half } else { middle - half };
         // The product of both solutions is (|f|² - r²) / |d|².
         let inner = R::narrow(f.dot(f) - rr) * length.inverse_squared / outer;
@@ -73,11 +78,11 @@ impl<R: Real> Shape<R> for Sphere<R> {
 
     fn check(&self) -> Result<(), ShapeError> {
         let reach = self.center.max_abs() + self.radius;
-        if !(self.center.is_finite() && workable(reach)) {
+        if !(self.center.is_finite() && R::is_workable(reach)) {
             Err(ShapeError::NotFinite)
         } else if self.radius < R::ZERO {
             Err(ShapeError::Negative)
-        } else if R::narrow(self.radius.times(self.radius)) > R::ZERO {
+        } else if self.radius.times(self.radius) > R::Wide::default() {
             Ok(())
         } else {
             Err(ShapeError::Degenerate)

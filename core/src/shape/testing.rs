@@ -34,11 +34,11 @@ pub(super) fn all_hits<S: Shape<f32>>(shape: &S, ray: &Ray<f32>) -> Vec<f32> {
 }
 
 /// G. Marsaglia, "Xorshift RNGs" (2003), 64 bits.
-pub(super) struct Random(pub(super) u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// Between -1 and 1.
-    pub(super) fn signed(&mut self) -> f32 {
+    pub(crate) fn signed(&mut self) -> f32 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -46,17 +46,17 @@ impl Random {
     }
 
     /// Between `lo` and `hi`.
-    pub(super) fn within(&mut self, lo: f32, hi: f32) -> f32 {
+    pub(crate) fn within(&mut self, lo: f32, hi: f32) -> f32 {
         lo + (hi - lo) * (self.signed() * 0.5 + 0.5)
     }
 
     /// In the cube from -1 to 1.
-    pub(super) fn vector(&mut self) -> Vec3 {
+    pub(crate) fn vector(&mut self) -> Vec3 {
         vec3(self.signed(), self.signed(), self.signed())
     }
 
     /// Of length 1.
-    pub(super) fn direction(&mut self) -> Vec3 {
+    pub(crate) fn direction(&mut self) -> Vec3 {
         loop {
             let v = self.vector();
             if v.length() > 0.1 && v.length() <= 1.0 {

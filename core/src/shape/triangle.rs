@@ -7,7 +7,7 @@
 //! an edge function is 0; that serves to give an edge to one triangle only. Here both may claim it,
 //! and the order of shapes decides.
 
-use super::{Shape, ShapeError, settle, workable};
+use super::{Shape, ShapeError, settle};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, FOURS, Real, Vec3, Vector};
 
@@ -28,7 +28,7 @@ impl<R: Real> Triangle<R> {
     /// Twice its area, as a vector towards the front.
     fn area_vector(&self) -> Vec3<R> {
         let [a, b, c] = self.corners;
-        (b - a).cross(c - a)
+        (b - a).across(c - a)
     }
 
     /// Where a ray that passes inside meets it. Apart from the test, which then stays small enough to
@@ -51,8 +51,8 @@ impl<R: Real> Triangle<R> {
         let positive = weights.map(|w| if w >= zero { w } else { zero });
         let negative = weights.map(|w| if w <= zero { w } else { zero });
         let weights = if sum(positive) >= -sum(negative) { positive } else { negative };
-        if sum(weights) == zero || !R::narrow(sum(weights)).is_finite() {
-            return [R::ONE / R::from_i32(3); 3];
+        if sum(weights) == zero || !R::is_finite_wide(sum(weights)) {
+            return [R::fraction(1, 3); 3];
         }
         [
             R::mean(weights, [R::ONE, R::ZERO, R::ZERO]),
@@ -126,7 +126,7 @@ impl<R: Real> Shape<R> for Triangle<R> {
     fn check(&self) -> Result<(), ShapeError> {
         let bounds = self.bounds();
         let reach = bounds.max_abs();
-        if !(self.corners.iter().all(|c| c.is_finite()) && workable(reach)) {
+        if !(self.corners.iter().all(|c| c.is_finite()) && R::is_workable(reach)) {
             Err(ShapeError::NotFinite)
         } else if self.area_vector().is_zero() {
             Err(ShapeError::Degenerate)

@@ -56,7 +56,7 @@ impl<R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox, P: Sampling<R>> Renderer<'_
         // From points in parts of pixels to -1..1 across the picture.
         let across = |i: i32, n: u16| {
             let n = i32::from(n) * parts;
-            R::from_i32(2 * i - n) / R::from_i32(n)
+            R::fraction(2 * i - n, n)
         };
         let mut see = |x: i32, y: i32| {
             let ray = camera.ray(across(x, *width), -across(y, *height));

@@ -59,7 +59,7 @@ impl<R: Real> Sampling<R> for Uniform {
                 color = color + seen.map(|c| c.clamp(R::ZERO, R::ONE));
             }
         }
-        color * (R::ONE / R::from_i32(n * n))
+        color * R::fraction(1, n * n)
     }
 }
 
@@ -116,7 +116,7 @@ impl<'m, R: Real> Adaptive<'m, R> {
             let (least_seen, most_seen) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
             let differs = (most_seen - least_seen).max_abs() > self.threshold;
             if !(differs && size > least) {
-                let area = R::from_i32(size * size) / R::from_i32(4 * PARTS * PARTS);
+                let area = R::fraction(size * size, 4 * PARTS * PARTS);
                 color = color + (a + b + (c + d)) * area;
                 continue;
             }

@@ -237,7 +237,7 @@ impl<R: Real> Arrival<'_, R> {
     /// The ray to a light, its direction of length 1, and the light's parameter; `None` when the
     /// surface faces away.
     fn towards(&self, light: &Light<R>) -> Option<(Ray<R>, R)> {
-        let towards = light.position - self.origin;
+        let towards = R::towards(self.origin, light.position);
         let zero = R::Wide::default();
         let faces = |n: Vec3<R>| n.dot(towards) > zero;
         if !(faces(self.surface.shading) && faces(self.surface.normal)) {
@@ -245,7 +245,7 @@ impl<R: Real> Arrival<'_, R> {
         }
         let unit = towards.unit()?;
         let ray = self.ray.turned(self.origin, unit, R::ONE, self.surface.reach)?;
-        Some((ray, R::narrow(towards.dot(unit))))
+        Some((ray, R::distance_to(light.position, R::narrow(towards.dot(unit)))))
     }
 
     /// What the surface sends back of white light from a direction of length 1.

@@ -6,7 +6,7 @@
 //! "Memory-conserving bounding volume hierarchies with coherent raytracing", CGF 25(2) (2006).
 
 use super::units::{Bounds, Course};
-use crate::num::{FOURS, Real};
+use crate::num::{FOURS, Progress, Real};
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
@@ -111,32 +111,29 @@ pub(super) fn clip<R: Real>(
 }
 
 /// The children's sides along one axis, seen by a ray.
-struct Slabs<'n, R> {
+struct Slabs<'n, R: Real> {
     /// In steps: by which the ray enters, and by which it leaves.
     near: &'n [u8; WIDTH],
     far: &'n [u8; WIDTH],
-    /// The ray is at step `n` at the parameter `n * step + offset`.
-    step: R,
-    offset: R,
+    /// The parameters at which the ray meets steps.
+    steps: R::Progress,
 }
 
 impl<'n, R: Real> Slabs<'n, R> {
     #[inline(always)]
     fn of(node: &'n Node, course: &Course<R>, origin: [u8; 2], shift: u8) -> Self {
         let row = |row: usize| node.get(row % ROWS).unwrap_or(&[0; WIDTH]);
-        let origin = R::from_i32(u16::from_le_bytes(origin).into());
         Self {
             near: row(course.near),
             far: row(course.far),
-            step: course.slope * R::from_i32(1 << shift),
-            offset: course.offset + course.slope * origin,
+            steps: course.units.rebased(u16::from_le_bytes(origin).into(), shift),
         }
     }
 
     /// A side as a parameter.
     #[inline(always)]
     fn at(&self, side: u8) -> R {
-        R::from_i32(side.into()) * self.step + self.offset
+        self.steps.at(side.into())
     }
 
     /// Four sides from `AT` on as parameters.

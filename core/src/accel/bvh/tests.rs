@@ -71,8 +71,8 @@ fn check<R: Real>(scene: &Scene<'_, R, &[Sphere<R>]>, nodes: usize) -> usize {
                         let Bounds { lo, hi } = boxes(id);
                         for (from, to) in &around {
                             for axis in 0..3 {
-                                assert!(from[axis] <= lo[axis].into());
-                                assert!(to[axis] >= hi[axis].into());
+                                assert!(from[axis] <= u32::from(lo[axis]));
+                                assert!(to[axis] >= u32::from(hi[axis]));
                             }
                         }
                     }

@@ -7,7 +7,7 @@
 
 use crate::accel::lattice;
 use crate::geom::{Aabb, Ray};
-use crate::num::{Axis, Real, Vec3, Vector};
+use crate::num::{Axis, Cells, Progress, Real, Vec3, Vector};
 use crate::scene::{Scene, Shapes};
 
 /// Units along the longest axis of a scene: less than 255 times 256, so that 255 steps of a power of
@@ -51,9 +51,8 @@ impl Bounds {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units<R: Real> {
     origin: Vec3<R>,
-    /// A unit's length, and its reciprocal.
-    unit: R,
-    per_unit: R,
+    /// The same along each axis.
+    cells: R::Cells,
     /// How far shapes reach beyond their boxes.
     pad: R,
 }
@@ -63,48 +62,38 @@ impl<R: Real> Units<R> {
         let root = lattice::root(scene.bounds(), scene.pad(), 32, 32);
         // Of a small scene far away from the origin no coordinate is known that finely; 255 units
         // are to be more than a rounding error, or rays would enter boxes that are empty.
-        let least = scene.bounds().max_abs() / R::from_i32(256);
+        let least = scene.bounds().max_abs() * R::fraction(1, 256);
         let along = root.size().max_abs().max(least);
-        let count = R::from_i32(ALONG);
-        Self { origin: root.lo, unit: along / count, per_unit: count / along, pad: scene.pad() }
+        Self { origin: root.lo, cells: Cells::new(along, ALONG), pad: scene.pad() }
     }
 
     /// The box of a shape, padded and rounded outwards.
     pub(super) fn bounds(&self, bounds: Aabb<R>) -> Bounds {
         let bounds = bounds.grown(self.pad);
-        let units = |p: Vec3<R>| ((p - self.origin) * self.per_unit).to_array();
+        let units = |p: Vec3<R>| (p - self.origin).to_array().map(|x| self.cells.index(x));
         // Cutting off is rounding down for all that is not raised to 0. The unit that is added
         // above rounds up.
-        let whole = |x: R| x.to_i32().clamp(0, ALONG) as u16;
+        let whole = |x: i32| x.clamp(0, ALONG) as u16;
         Bounds { lo: units(bounds.lo).map(whole), hi: units(bounds.hi).map(|x| whole(x) + 1) }
     }
 
     /// A ray seen along each of the three axes. Three divisions.
     pub(super) fn courses(&self, ray: &Ray<R>) -> [Course<R>; 3] {
-        // A ray less inclined than that does not move along the axis: across the scene it would
-        // come by less than a rounding error. So nothing is infinite, and where a ray stays between
-        // two sides it enters and leaves them far beyond both ends of the scene.
-        let steepest = R::ONE / (R::EPSILON * R::EPSILON);
         Axis::ALL.map(|axis| {
             let d = ray.direction().along(axis);
-            let inverse = (R::ONE / d).abs();
-            // Neither is what is not a number.
-            let inverse = if inverse < steepest { inverse } else { steepest };
-            let backwards = d < R::ZERO;
-            let inverse = if backwards { -inverse } else { inverse };
             let (lo, hi) = (axis.index(), 3 + axis.index());
-            let (near, far) = if backwards { (hi, lo) } else { (lo, hi) };
-            let offset = (self.origin.along(axis) - ray.origin().along(axis)) * inverse;
-            Course { slope: self.unit * inverse, offset, near, far }
+            let (near, far) = if d < R::ZERO { (hi, lo) } else { (lo, hi) };
+            let from = self.origin.along(axis) - ray.origin().along(axis);
+            Course { units: R::Progress::steep(d, from, &self.cells), near, far }
         })
     }
 }
 
-/// A ray's way along one axis: it is at `x` units at the parameter `slope * x + offset`.
+/// A ray's way along one axis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Course<R> {
-    pub(super) slope: R,
-    pub(super) offset: R,
+pub(super) struct Course<R: Real> {
+    /// The parameters at which it meets whole units.
+    pub(super) units: R::Progress,
     /// The row of a [`Node`](super::node::Node) with the sides by which it enters boxes.
     pub(super) near: usize,
     /// The one with the sides by which it leaves them.

@@ -59,7 +59,7 @@ pub fn resolution_for<R: Real, S: Shapes<R>>(
     let size = room::<_, _, u32>(scene, huge).0.size();
     let longest = size.max_abs();
     let counts = |l: i32| {
-        let per_axis = |s: R| (s / longest * R::from_i32(l)).to_i32().max(1) as u32;
+        let per_axis = |s: R| s.proportion(longest, l).max(1) as u32;
         size.to_array().map(per_axis)
     };
     let fits = |n: [u32; 3]| n.iter().fold(1_usize, |p, n| p.saturating_mul(*n as usize)) <= cells;

@@ -9,7 +9,7 @@ use crate::num::Real;
 use crate::probe::Probe;
 
 /// The walk along one axis.
-struct Along<R> {
+struct Along<R: Real> {
     track: Track<R>,
     cell: i32,
     count: i32,

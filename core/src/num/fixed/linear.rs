@@ -1,0 +1,129 @@
+//! Reciprocals, and walls at equal distances along a ray.
+
+use super::{DIGITS, Fixed};
+use crate::num;
+
+/// The reciprocal of a direction's component: `mantissa * 2^-(shift)`, the mantissa of 31 bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reciprocal {
+    /// 0 for that of 0.
+    mantissa: i32,
+    /// 2 to 31.
+    shift: u32,
+}
+
+impl Reciprocal {
+    fn of(d: Fixed) -> Self {
+        let size = d.to_bits().unsigned_abs();
+        let length = u32::BITS - size.leading_zeros();
+        // 2^28 / size is 2^(28 - length) times a number from 1 to 2, of which 31 bits are kept.
+        let nearest = (1_u64 << (30 + length)) + u64::from(size / 2);
+        let Some(mantissa) = nearest.checked_div(size.into()) else {
+            return Self::default();
+        };
+        // What is 2 becomes the next smaller number.
+        let mantissa = mantissa.min(i32::MAX as u64) as i32;
+        let mantissa = if d.to_bits() < 0 { -mantissa } else { mantissa };
+        Self { mantissa, shift: (2 + length).min(31) }
+    }
+}
+
+impl num::Reciprocal<Fixed> for Reciprocal {
+    fn of(d: Fixed) -> Self {
+        Self::of(d)
+    }
+
+    fn sign(self) -> i32 {
+        self.mantissa.signum()
+    }
+
+    fn times(self, x: Fixed) -> Fixed {
+        if self.mantissa == 0 {
+            return Fixed::default();
+        }
+        Fixed::rounded(i64::from(x.to_bits()) * i64::from(self.mantissa), self.shift)
+    }
+}
+
+/// An extent divided into equal cells.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cells {
+    /// The width of a cell in steps of 2^-56.
+    width: i64,
+    count: i32,
+    extent: Reciprocal,
+}
+
+impl num::Cells<Fixed> for Cells {
+    fn new(extent: Fixed, count: i32) -> Self {
+        let width = (i64::from(extent.to_bits()) << DIGITS).checked_div(count.into());
+        Self { width: width.unwrap_or(0), count, extent: Reciprocal::of(extent) }
+    }
+
+    fn index(&self, x: Fixed) -> i32 {
+        // The part of the extent in 2^-31, from nothing to a little more than all of it.
+        let part = (i64::from(x.to_bits()) * i64::from(self.extent.mantissa))
+            >> (self.extent.shift + DIGITS).saturating_sub(31);
+        ((part.clamp(-(1 << 32), 1 << 32) * i64::from(self.count)) >> 31) as i32
+    }
+}
+
+/// Parameters at which a ray meets walls at equal distances: those of the first and between two,
+/// times a mantissa and not yet divided by a power of two, so that none is rounded before it is
+/// asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Progress {
+    start: i64,
+    width: i64,
+    shift: u32,
+}
+
+impl Progress {
+    fn with(reciprocal: Reciprocal, from: Fixed, cells: &Cells) -> Self {
+        let mantissa = i64::from(reciprocal.mantissa);
+        // A product of 64 and 32 bits without its last 28.
+        let (high, low) = (cells.width >> DIGITS, cells.width & ((1 << DIGITS) - 1));
+        Self {
+            start: i64::from(from.to_bits()) * mantissa,
+            width: high * mantissa + ((low * mantissa) >> DIGITS),
+            shift: reciprocal.shift,
+        }
+    }
+}
+
+impl num::Progress<Fixed> for Progress {
+    type Reciprocal = Reciprocal;
+    type Cells = Cells;
+
+    fn new(reciprocal: Reciprocal, from: Fixed, cells: &Cells, _count: i32) -> Option<Self> {
+        (reciprocal.mantissa != 0).then(|| Self::with(reciprocal, from, cells))
+    }
+
+    fn steep(direction: Fixed, from: Fixed, cells: &Cells) -> Self {
+        let moving = if direction == Fixed::default() { Fixed::from_bits(1) } else { direction };
+        Self::with(Reciprocal::of(moving), from, cells)
+    }
+
+    fn never() -> Self {
+        Self { start: i64::MAX / 4, width: 0, shift: 2 }
+    }
+
+    fn standing(cell: i32) -> Self {
+        const WIDTH: i64 = 1 << 36;
+        Self { start: -(WIDTH * i64::from(cell) + WIDTH / 2), width: WIDTH, shift: 2 }
+    }
+
+    #[inline]
+    fn at(&self, i: i32) -> Fixed {
+        let steps = self.start + self.width * i64::from(i);
+        Fixed::saturated((steps + ((1 << self.shift) >> 1)) >> self.shift)
+    }
+
+    fn rebased(&self, origin: i32, shift: u8) -> Self {
+        Self {
+            start: self.start + self.width * i64::from(origin),
+            width: self.width << shift,
+            shift: self.shift,
+        }
+    }
+}

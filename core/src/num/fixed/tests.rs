@@ -1,0 +1,191 @@
+use super::*;
+use crate::num::{Cells as _, Progress as _, Reciprocal as _};
+use crate::shape::testing::Random;
+
+extern crate std;
+
+const STEP: f64 = 1.0 / 268_435_456.0;
+
+fn any(random: &mut Random, magnitude: f64) -> Fixed {
+    let scale = f64::from(random.within(0.0, 1.0)).powi(4) * magnitude;
+    Fixed::new(f64::from(random.signed()) * scale)
+}
+
+#[test]
+fn what_is_out_of_range_is_infinite() {
+    for x in [8.0, 1.0e300, f64::INFINITY, f64::NAN] {
+        assert_eq!(Fixed::new(x), Fixed::INFINITY, "{x}");
+    }
+    assert_eq!(Fixed::new(-8.0), -Fixed::INFINITY);
+    let five = Fixed::from_i32(5);
+    assert_eq!(five + five, Fixed::INFINITY);
+    assert_eq!(five * -five, -Fixed::INFINITY);
+    assert_eq!(five / Fixed::EPSILON, Fixed::INFINITY);
+    assert_eq!(five / Fixed::ZERO, Fixed::INFINITY);
+    assert_eq!(-five / Fixed::ZERO, -Fixed::INFINITY);
+    assert!(!Fixed::INFINITY.is_finite() && !(-Fixed::INFINITY).is_finite());
+    assert!(!Fixed::from_bits(i32::MIN).is_finite() && Fixed::MAX.is_finite());
+    assert_eq!(Fixed::INFINITY.next_down(), Fixed::MAX);
+    assert_eq!(Fixed::from_bits(i32::MIN).abs(), Fixed::INFINITY);
+    assert_eq!(Fixed::ZERO / Fixed::from_i32(-3), Fixed::ZERO);
+}
+
+#[test]
+fn products_quotients_and_roots_are_the_nearest_numbers() {
+    let mut random = Random(5);
+    for _ in 0..200_000 {
+        let (a, b) = (any(&mut random, 2.8), any(&mut random, 2.8));
+        let error = (a * b).to_f64() - a.to_f64() * b.to_f64();
+        assert!(error.abs() <= STEP / 2.0 * 1.000_001, "{a:?} {b:?}");
+        let exact = a.to_f64() / b.to_f64();
+        if exact.abs() < 7.9 {
+            assert!(((a / b).to_f64() - exact).abs() <= STEP / 2.0 * 1.000_001, "{a:?} {b:?}");
+            let ratio = Fixed::ratio(a.times(Fixed::ONE), b.times(Fixed::ONE)).to_f64();
+            assert!(
+                (ratio - exact).abs() <= STEP * (0.5 + 0.25 * exact.abs()) + 1e-15,
+                "{a:?} {b:?}"
+            );
+        } else {
+            let ratio = Fixed::ratio(a.times(Fixed::ONE), b.times(Fixed::ONE));
+            assert!(!ratio.is_finite() || ratio.abs().to_f64() > 7.8, "{a:?} {b:?}");
+        }
+        let root = a.abs().sqrt().to_f64();
+        assert!((root - a.abs().to_f64().sqrt()).abs() <= STEP / 2.0 * 1.000_001, "{a:?}");
+    }
+}
+
+#[test]
+fn means_stay_among_their_numbers() {
+    let mut random = Random(6);
+    for _ in 0..100_000 {
+        let weights =
+            [0; 3].map(|_| any(&mut random, 5.0).abs().times(any(&mut random, 5.0).abs()));
+        let z = [0; 3].map(|_| any(&mut random, 5.0));
+        let all: f64 = weights.iter().map(|w| w.to_num::<f64>()).sum();
+        if all < 1.0e-9 {
+            continue;
+        }
+        let exact: f64 =
+            weights.iter().zip(z).map(|(w, z)| w.to_num::<f64>() * z.to_f64()).sum::<f64>() / all;
+        let mean = Fixed::mean(weights, z).to_f64();
+        assert!((mean - exact).abs() <= 5.0 * STEP, "{weights:?} {z:?} {mean} {exact}");
+    }
+}
+
+#[test]
+fn vectors_of_any_length_become_units() {
+    let mut random = Random(7);
+    for _ in 0..100_000 {
+        let scale = Fixed::new(0.5_f64.powi(i32::from(random.0 as u8 % 24)));
+        let v = Vec3::new(any(&mut random, 2.0), any(&mut random, 2.0), any(&mut random, 2.0));
+        let v = v * scale;
+        let Some(unit) = v.unit() else {
+            assert_eq!(v, Vec3::default());
+            continue;
+        };
+        let exact = glam::DVec3::new(v.x.to_f64(), v.y.to_f64(), v.z.to_f64()).normalize();
+        let unit = glam::DVec3::new(unit.x.to_f64(), unit.y.to_f64(), unit.z.to_f64());
+        assert!((unit - exact).length() < 2.0 * STEP, "{v:?}");
+    }
+    assert_eq!(Vec3::default().unit(), None);
+}
+
+#[test]
+fn across_is_the_direction_of_the_product() {
+    let mut random = Random(8);
+    for i in 0..100_000_u32 {
+        let scale = Fixed::new(0.5_f64.powi((i % 20) as i32));
+        let mut vector =
+            || Vec3::new(any(&mut random, 1.0), any(&mut random, 1.0), any(&mut random, 1.0));
+        let (a, b) = (vector() * scale, vector() * scale);
+        let double = |v: Vec3| glam::DVec3::new(v.x.to_f64(), v.y.to_f64(), v.z.to_f64());
+        let exact = double(a).cross(double(b));
+        let across = a.across(b);
+        if exact.length() == 0.0 {
+            assert_eq!(across, Vec3::default());
+            continue;
+        }
+        assert!(across.max_abs() >= Fixed::ONE && across.max_abs() <= Fixed::from_i32(2));
+        let off = (double(across).normalize() - exact.normalize()).length();
+        assert!(off < 4.0 * STEP, "{a:?} {b:?}: {off}");
+    }
+}
+
+#[test]
+fn walls_are_where_they_should_be() {
+    let mut random = Random(9);
+    for i in 0..200_000_u32 {
+        let count = 1 << (i % 21);
+        let extent = Fixed::new(f64::from(random.within(0.001, 1.0)));
+        let cells = Cells::new(extent, count);
+        let d = any(&mut random, 1.7);
+        let from = any(&mut random, 2.5);
+        let Some(walls) = Progress::new(Reciprocal::of(d), from, &cells, count) else {
+            assert_eq!(d, Fixed::ZERO);
+            continue;
+        };
+        let wall = (f64::from(random.within(0.0, 1.0)) * f64::from(count)) as i32;
+        let place = from.to_f64() + extent.to_f64() * f64::from(wall) / f64::from(count);
+        let exact = place / d.to_f64();
+        let t = walls.at(wall).to_f64();
+        if exact.abs() < 7.9 {
+            // Half a step of t, the reciprocal's error, and that of the cell's width.
+            let width = f64::from(count) * STEP * STEP / d.to_f64().abs();
+            let bound = STEP / 2.0 + exact.abs() * STEP / 8.0 + width + 1.0e-15;
+            assert!((t - exact).abs() <= bound, "{t} {exact} {d:?}");
+        } else {
+            assert!(t.abs() > 7.8, "{t} {exact} {d:?}");
+        }
+        let x = Fixed::new(f64::from(random.within(0.0, 1.0)) * extent.to_f64());
+        let exact = x.to_f64() / extent.to_f64() * f64::from(count);
+        let index = f64::from(cells.index(x));
+        let margin = 1.0e-3 + f64::from(count) / extent.to_f64() * STEP;
+        assert!(index <= exact + margin && index + 1.0 >= exact - margin, "{index} {exact}");
+    }
+}
+
+#[test]
+fn tangents_and_powers_are_those_of_floats() {
+    for i in 0..1440 {
+        let x = f64::from(i) / 1000.0;
+        let tan = Fixed::new(x).tan().to_f64();
+        let bound = STEP * (1.0 + x.tan()) * (1.0 + x.tan());
+        assert!((tan - x.tan()).abs() <= bound, "{x}");
+    }
+    for i in 0..=1000 {
+        let x = f64::from(i) / 1000.0;
+        for exponent in [0.0, 0.3, 1.0, 27.8, 100.0, 1.0e4] {
+            let power = Fixed::new(x).powf(Fixed::exponent(exponent)).to_f64();
+            assert!((power - x.powf(exponent)).abs() < 1.0 / 2700.0, "{x} {exponent}");
+        }
+    }
+}
+
+#[test]
+fn lights_far_away_are_seen_in_their_direction() {
+    for position in [[0.1, 0.2, -0.3], [5.0, -70.0, 100.0], [1.0e6, 1.0e5, 3.0]] {
+        let far = Fixed::far_point(position);
+        assert!(Fixed::is_usable_far(far));
+        let from = Vec3::from_f64([0.5, -0.25, 0.125]);
+        let towards = Fixed::towards(from, far).unit().unwrap().to_array().map(Real::to_f64);
+        let [x, y, z] = position;
+        let exact = glam::DVec3::new(x - 0.5, y + 0.25, z - 0.125).normalize();
+        assert!((glam::DVec3::from_array(towards) - exact).length() < 8.0 * STEP, "{position:?}");
+    }
+    assert!(!Fixed::is_usable_far(Fixed::far_point([1.0e12, 0.0, 0.0])));
+    assert!(!Fixed::is_usable_far(Fixed::far_point([f64::NAN, 0.0, 0.0])));
+}
+
+#[test]
+fn whole_numbers_and_bytes_are_exact() {
+    for (a, b, floor) in
+        [(7, 2, 3), (-7, 2, -4), (6, 3, 2), (-6, 3, -2), (0, 5, 0), (1, 0, i32::MAX)]
+    {
+        let of = |i: i32| Fixed::from_bits(i);
+        assert_eq!(of(a).floor_ratio(of(b)), floor, "{a} {b}");
+    }
+    for i in 0..=255 {
+        assert_eq!(Fixed::fraction(i, 255).to_byte(), i as u8);
+    }
+    assert_eq!((Fixed::from_i32(-1).to_byte(), Fixed::from_i32(2).to_byte()), (0, 255));
+}

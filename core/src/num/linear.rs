@@ -1,0 +1,46 @@
+//! What a ray's way along an axis is computed from. In fixed point none of these fits the format of
+//! coordinates.
+
+use super::Real;
+use core::fmt::Debug;
+
+/// The reciprocal of a direction's component.
+pub trait Reciprocal<R>: Copy + Debug + Default + PartialEq + Send + Sync {
+    /// 1 / d; 0 where that is not finite: the way along this axis is nothing.
+    fn of(d: R) -> Self;
+    /// 1, -1, or 0 where it is 0.
+    fn sign(self) -> i32;
+    /// `x / d`.
+    fn times(self, x: R) -> R;
+}
+
+/// An extent divided into equal cells.
+pub trait Cells<R>: Copy + Debug + Default + Send + Sync {
+    /// Divides it into `count > 0` cells.
+    fn new(extent: R, count: i32) -> Self;
+    /// In which cell `x >= 0` lies, counted from its beginning; what lies below is in cell 0 or
+    /// below, what lies beyond in the last or beyond.
+    fn index(&self, x: R) -> i32;
+}
+
+/// Parameters at which a ray meets walls at equal distances, each computed from its number and never
+/// from the one before: so they cannot drift.
+pub trait Progress<R: Real>: Copy + Debug + Default {
+    /// As in [`Real::Reciprocal`].
+    type Reciprocal;
+    /// As in [`Real::Cells`].
+    type Cells;
+
+    /// `count` walls, of which the first is `from` away; `None` where the ray does not move.
+    fn new(reciprocal: Self::Reciprocal, from: R, cells: &Self::Cells, count: i32) -> Option<Self>;
+    /// The same for any direction: where a ray hardly moves it meets each wall far away.
+    fn steep(direction: R, from: R, cells: &Self::Cells) -> Self;
+    /// Every wall is infinitely far away.
+    fn never() -> Self;
+    /// Walls up to number `cell` have been passed for ever, those beyond it never will be.
+    fn standing(cell: i32) -> Self;
+    /// The parameter of wall number `i`.
+    fn at(&self, i: i32) -> R;
+    /// Numbers from wall `origin`, every 2^`shift`-th wall.
+    fn rebased(&self, origin: i32, shift: u8) -> Self;
+}
