@@ -18,7 +18,9 @@ pub mod csg;
 mod cylinder;
 mod plane;
 mod polygon;
+mod polyhedron;
 mod sphere;
+mod transformed;
 mod triangle;
 
 pub use r#box::AxisBox;
@@ -28,7 +30,9 @@ pub use csg::Csg;
 pub use cylinder::Cylinder;
 pub use plane::Plane;
 pub use polygon::Polygon;
+pub use polyhedron::Polyhedron;
 pub use sphere::{Length, Sphere};
+pub use transformed::{Affine, Transformed};
 pub use triangle::{Shear, Triangle};
 
 use crate::geom::{Aabb, Ray, Slopes};
@@ -51,6 +55,8 @@ pub enum ShapeError {
     Negative,
     /// A polygon has fewer than three corners.
     TooFewCorners,
+    /// A polyhedron does not end on every side.
+    Unbounded,
     /// The axis of a cylinder or a cone is not of length 1, or the normal of a plane or a polygon is
     /// zero or so short that its square is.
     NotUnit,
@@ -65,6 +71,7 @@ impl core::fmt::Display for ShapeError {
             }
             Self::Negative => "a radius or an extent is negative",
             Self::TooFewCorners => "a polygon needs at least three corners",
+            Self::Unbounded => "a polyhedron needs faces on every side",
             Self::NotUnit => "its axis or its normal has no usable length: scale it to length 1",
         })
     }
