@@ -5,7 +5,7 @@
 //! the test of slabs by T. L. Kay and J. T. Kajiya ("Ray tracing complex scenes", SIGGRAPH 1986) for
 //! planes of any direction. No ray gets in between faces.
 
-use super::{Convex, Plane, Shape, ShapeError, settle, workable};
+use super::{Convex, Plane, Shape, ShapeError, settle};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -79,7 +79,7 @@ impl<R: Real> Shape<R> for Polyhedron<'_, R> {
             Err(ShapeError::Unbounded)
         } else if self.bounds.is_empty() {
             Err(ShapeError::Degenerate)
-        } else if workable(self.bounds.max_abs()) {
+        } else if R::is_workable(self.bounds.max_abs()) {
             Ok(())
         } else {
             Err(ShapeError::NotFinite)
@@ -131,7 +131,7 @@ fn measure<R: Real>(faces: &[Plane<R>]) -> Aabb<R> {
     if bounds.is_empty() {
         return bounds;
     }
-    bounds.grown(R::ulps(8) * bounds.max_abs())
+    bounds.grown(R::ulps_at(8, bounds.max_abs()))
 }
 
 /// Below this sine of an angle two directions are taken for one, in units of the last place of 1.
@@ -163,7 +163,7 @@ fn edge<'f, R: Real>(
         let towards = R::narrow(normal.dot(along));
         let height = R::narrow(normal.dot(face.point - at));
         // How far rounding may have moved the line from the plane.
-        let error = R::ulps(16) * (at.max_abs() + face.point.max_abs());
+        let error = R::ulps_at(16, at.max_abs() + face.point.max_abs());
         if !(towards.abs() > R::ulps(PARALLEL)) {
             if height < -error {
                 return None;

@@ -6,7 +6,7 @@
 //! scenes", SIGGRAPH 1980; for normals K. Turkowski, "Properties of surface-normal
 //! transformations", Graphics Gems, 1990).
 
-use super::{Convex, Shape, ShapeError, settle, workable};
+use super::{Convex, Shape, ShapeError, settle};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -83,7 +83,7 @@ impl<R: Real, T: Convex<R>> Transformed<R, T> {
         let reach = x * half.x() + y * half.y() + z * half.z();
         let far = around.max_abs();
         let size = map.origin.max_abs() + (x + y + z).max_abs() * far;
-        let bounds = Aabb { lo: middle - reach, hi: middle + reach }.grown(R::ulps(8) * size);
+        let bounds = Aabb { lo: middle - reach, hi: middle + reach }.grown(R::ulps_at(8, size));
         Ok(Self { solid, inverse, origin: map.origin, bounds })
     }
 
@@ -123,8 +123,9 @@ impl<R: Real, T: Convex<R>> Shape<R> for Transformed<R, T> {
 
     fn check(&self) -> Result<(), ShapeError> {
         self.solid.check()?;
-        let inverse = self.inverse.iter().all(|axis| axis.is_finite() && workable(axis.max_abs()));
-        if inverse && self.origin.is_finite() && workable(self.bounds.max_abs()) {
+        let workable = |axis: &Vec3<R>| axis.is_finite() && R::is_workable_normal(axis.max_abs());
+        let inverse = self.inverse.iter().all(workable);
+        if inverse && self.origin.is_finite() && R::is_workable(self.bounds.max_abs()) {
             Ok(())
         } else {
             Err(ShapeError::NotFinite)
