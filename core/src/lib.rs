@@ -11,6 +11,7 @@
 //! | [`geom`] | rays, intervals of their parameter, boxes |
 //! | [`memory`] | the arena, scratch that comes back, footprints |
 //! | [`shape`] | elementary solids, one a file |
+//! | [`bound`] | bodies around shapes, which a ray is tested against first |
 //! | [`scene`] | borrowed tables of shapes, surfaces, lights; the camera |
 //! | [`accel`] | structures: which shapes a ray has to be tested against; mailboxes |
 //! | [`plan`] | scene + budget → structure and parameters, with the reason |
@@ -47,6 +48,7 @@
 )]
 
 pub mod accel;
+pub mod bound;
 pub mod display;
 pub mod geom;
 pub mod memory;

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use kibiray::accel::mailbox::{self, AnyMailbox};
-use kibiray::accel::{self, Any, BuildError, octree};
+use kibiray::accel::{self, BuildError, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::{Real, Vec3};
 use kibiray::plan::{Plan, Structure, Wishes, plan};
@@ -15,9 +15,11 @@ use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 use crate::options::{
     AccelKind, Antialiasing, Common, Growth, Huge, MailboxKind, Store, Switch, Walk,
 };
+use crate::structure;
 
 /// What traces on this host.
-pub type HostTracer<'a, R> = Tracer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>>;
+pub type HostTracer<'a, R> =
+    Tracer<'a, R, Solids<'a, R>, structure::Structure<'a, R>, AnyMailbox<'a>>;
 
 /// Bytes that an arena lies in.
 #[derive(Debug)]
@@ -52,7 +54,8 @@ pub fn wishes(options: &Common) -> Wishes {
     Wishes {
         structure: match options.accel {
             AccelKind::Auto => None,
-            AccelKind::Naive => Some(Structure::Naive),
+            // Trees are not the plan's; it only sees to the mailbox.
+            AccelKind::Naive | AccelKind::Tree => Some(Structure::Naive),
             AccelKind::Grid => Some(Structure::Grid),
             AccelKind::Octree => Some(Structure::Octree),
             AccelKind::Bvh => Some(Structure::Bvh),
@@ -79,11 +82,12 @@ pub fn wishes(options: &Common) -> Wishes {
             Store::Links => octree::Store::Links,
             Store::Hash => octree::Store::Hashed,
         }),
-        walk: options.walk.map(|walk| match walk {
-            Walk::Restart => octree::Walk::Restart,
-            Walk::Neighbours => octree::Walk::Neighbours,
-            Walk::Descent => octree::Walk::Descent,
-            Walk::Segments => octree::Walk::Segments,
+        walk: options.walk.and_then(|walk| match walk {
+            Walk::Restart => Some(octree::Walk::Restart),
+            Walk::Neighbours => Some(octree::Walk::Neighbours),
+            Walk::Descent => Some(octree::Walk::Descent),
+            Walk::Segments => Some(octree::Walk::Segments),
+            Walk::Ordered | Walk::Heap | Walk::Stored => None,
         }),
     }
 }
@@ -189,7 +193,7 @@ pub struct Built<'m, R: Real> {
     /// What was decided.
     pub plan: Plan,
     /// The structure.
-    pub accel: Any<'m, R>,
+    pub accel: structure::Structure<'m, R>,
     /// A mailbox a thread.
     pub mailboxes: Vec<AnyMailbox<'m>>,
     /// How to sample, a thread.
@@ -225,7 +229,7 @@ impl<'m, R: Real> Built<'m, R> {
         let mailboxes = (0..threads)
             .map(|_| AnyMailbox::new(plan.mailbox, shapes, arena))
             .collect::<Result<_, _>>()?;
-        let accel = Any::build(plan.accel, scene, arena)?;
+        let accel = structure::Structure::build(options, plan.accel, scene, arena)?;
         Ok(Self { plan, accel, mailboxes, samplings, seconds: start.elapsed().as_secs_f64() })
     }
 

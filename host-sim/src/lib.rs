@@ -14,6 +14,7 @@ pub mod picture;
 pub mod plot;
 pub mod rays;
 pub mod report;
+pub mod structure;
 pub mod tables;
 pub mod terminal;
 pub mod values;

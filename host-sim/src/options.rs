@@ -224,9 +224,22 @@ pub struct Common {
     #[arg(long, value_enum, value_name = "KIND")]
     pub store: Option<Store>,
     /// Octree: how a ray gets from leaf to leaf [default: descent; restart for stats with
-    /// --max-objects or --max-level, as the published counts are made so]
+    /// --max-objects or --max-level, as the published counts are made so]. Tree: which node comes
+    /// next [default: ordered]
     #[arg(long, value_enum, value_name = "KIND")]
     pub walk: Option<Walk>,
+    /// Tree: what bounds shapes and nodes [default: box]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub bound: Option<BoundKind>,
+    /// Tree: how it comes about [default: gs]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub builder: Option<BuilderKind>,
+    /// Tree: in which order shapes are inserted [default: shuffled]
+    #[arg(long, value_enum, value_name = "ORDER")]
+    pub insertion: Option<InsertionKind>,
+    /// Tree: which of all ways to shuffle [default: 0]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
     /// When a shape belongs to a cell; `box`: its box touches the cell [default: box]
     #[arg(long, value_enum)]
     pub overlap: Option<Overlap>,
@@ -270,6 +283,34 @@ pub enum AccelKind {
     Grid,
     Octree,
     Bvh,
+    #[value(help = "a tree of bounds, see --bound")]
+    Tree,
+}
+
+/// `--bound`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum BoundKind {
+    #[value(help = "axis-aligned boxes")]
+    Box,
+}
+
+/// `--builder`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum BuilderKind {
+    #[value(help = "shape by shape, as Goldsmith and Salmon (1987)")]
+    Gs,
+}
+
+/// `--insertion`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum InsertionKind {
+    File,
+    Shuffled,
+    #[value(help = "along Hilbert's curve")]
+    Curve,
 }
 
 /// `--num`.
@@ -340,6 +381,19 @@ pub enum Walk {
     Descent,
     #[value(help = "cut into pieces first")]
     Segments,
+    #[value(help = "tree: depth first, the nearest child first")]
+    Ordered,
+    #[value(help = "tree: the nearest of all that wait, as Kay and Kajiya (1986)")]
+    Heap,
+    #[value(help = "tree: as it is stored, without memory")]
+    Stored,
+}
+
+impl Walk {
+    /// Whether it is one of a tree of bounds.
+    fn is_of_tree(self) -> bool {
+        matches!(self, Self::Ordered | Self::Heap | Self::Stored)
+    }
 }
 
 /// `--overlap`.
@@ -362,7 +416,12 @@ impl Common {
             || self.max_level.is_some()
             || self.growth.is_some()
             || self.store.is_some()
-            || self.walk.is_some();
+            || self.walk.is_some_and(|walk| !walk.is_of_tree());
+        let tree = self.bound.is_some()
+            || self.builder.is_some()
+            || self.insertion.is_some()
+            || self.seed.is_some()
+            || self.walk.is_some_and(Walk::is_of_tree);
         if self.num == Number::Fixed {
             return Err("--num fixed is not built yet: take f32 or f64".into());
         }
@@ -379,6 +438,12 @@ impl Common {
             return Err(
                 "--max-objects, --max-level, --store and --walk are only for --accel octree".into(),
             );
+        }
+        if tree && self.accel != AccelKind::Tree {
+            return Err("--bound, --builder, --insertion, --seed and --walk ordered, heap or stored are only for --accel tree".into());
+        }
+        if self.seed.is_some() && self.insertion.is_some_and(|it| it != InsertionKind::Shuffled) {
+            return Err("--seed is only for --insertion shuffled".into());
         }
         Ok(())
     }

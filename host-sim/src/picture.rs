@@ -2,7 +2,6 @@
 
 use embedded_graphics_core::pixelcolor::RgbColor;
 use indicatif::ProgressBar;
-use kibiray::accel::Any;
 use kibiray::accel::mailbox::AnyMailbox;
 use kibiray::display::rgb888;
 use kibiray::num::Real;
@@ -12,6 +11,7 @@ use kibiray::trace::{Renderer, Settings, Tracer};
 
 use crate::engine::{AnySampling, Built, Pass, fastest, share, timed};
 use crate::image::Image;
+use crate::structure::Structure;
 
 /// A picture and what it took.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ pub struct Rendered {
 
 /// A thread's renderer and its counters.
 struct Worker<'a, R: Real> {
-    renderer: Renderer<'a, R, Solids<'a, R>, Any<'a, R>, AnyMailbox<'a>, AnySampling<'a, R>>,
+    renderer: Renderer<'a, R, Solids<'a, R>, Structure<'a, R>, AnyMailbox<'a>, AnySampling<'a, R>>,
     counters: Counters,
 }
 

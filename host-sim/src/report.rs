@@ -3,11 +3,14 @@
 use std::collections::HashSet;
 
 use kibiray::accel::octree::{AnyOctree, StoppedBy, Storage};
+use kibiray::accel::tree::AnyTree;
 use kibiray::accel::{Any, Bvh, Grid, Id, Octree};
 use kibiray::memory::Arena;
 use kibiray::num::Real;
 use kibiray::probe::Counters;
 use serde::Serialize;
+
+use crate::structure::Structure;
 
 /// Everything that is reported.
 #[derive(Clone, Debug, Serialize)]
@@ -78,6 +81,13 @@ pub struct AccelReport {
     /// Level of the deepest leaf of an octree or a hierarchy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_level: Option<u32>,
+    /// Tests of bounds and of shapes that a ray should take by the cost model of a tree of bounds, if
+    /// it hits the root's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub predicted_bound_tests: Option<f64>,
+    /// See [`Self::predicted_bound_tests`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub predicted_shape_tests: Option<f64>,
     /// Why an octree was not divided further.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_by: Option<&'static str>,
@@ -108,8 +118,16 @@ fn lists<'l, I: Id + Eq + std::hash::Hash + 'l>(
 
 impl AccelReport {
     /// Of a structure, looked at from outside.
-    pub fn of<R: Real>(accel: &Any<'_, R>, mailbox: &'static str) -> Self {
+    pub fn of<R: Real>(accel: &Structure<'_, R>, mailbox: &'static str) -> Self {
         let report = match accel {
+            Structure::Planned(accel) => Self::planned(accel),
+            Structure::Tree(tree) => Self::tree(tree),
+        };
+        Self { mailbox, ..report }
+    }
+
+    fn planned<R: Real>(accel: &Any<'_, R>) -> Self {
+        match accel {
             Any::Naive(_) => Self { kind: "naive", ..Self::default() },
             Any::SmallGrid(grid) => Self::grid(grid),
             Any::Grid(grid) => Self::grid(grid),
@@ -123,8 +141,22 @@ impl AccelReport {
                 AnyOctree::Hashed(octree, _) => Self::octree(octree),
                 AnyOctree::LargeHashed(octree, _) => Self::octree(octree),
             },
-        };
-        Self { mailbox, ..report }
+        }
+    }
+
+    fn tree<R: Real>(tree: &AnyTree<'_, R>) -> Self {
+        let summary = tree.summary();
+        Self {
+            kind: "tree",
+            interior_nodes: Some(summary.interior_nodes),
+            leaves: Some(summary.shapes),
+            references: Some(summary.shapes),
+            shapes_per_leaf: Some(1.0),
+            max_level: Some(summary.levels as u32),
+            predicted_bound_tests: Some(summary.cost.bounds.to_f64()),
+            predicted_shape_tests: Some(summary.cost.shapes.to_f64()),
+            ..Self::default()
+        }
     }
 
     fn grid<R: Real, I: Id + Eq + std::hash::Hash, O: Id>(grid: &Grid<'_, R, I, O>) -> Self {

@@ -23,6 +23,7 @@ pub mod mailbox;
 mod naive;
 pub mod octree;
 mod query;
+pub mod tree;
 
 pub use any::{Any, Kind};
 pub use bvh::Bvh;
@@ -34,3 +35,4 @@ pub use mailbox::Mailbox;
 pub use naive::Naive;
 pub use octree::Octree;
 pub use query::{Accel, Hit, Visitor};
+pub use tree::Tree;

@@ -5,6 +5,7 @@
 //! `&[Sphere<f32>]`, `(&[Sphere<f32>], &[Triangle<f32>])`, or [`Solids`](super::Solids) for all of
 //! them. A set of one's own makes any object traceable.
 
+use crate::bound::Extent;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3};
 use crate::shape::{Shape, ShapeError};
@@ -37,6 +38,11 @@ pub trait Shapes<R: Real> {
 
     /// See [`Shape::bounds`].
     fn bounds(&self, id: usize) -> Aabb<R>;
+
+    /// See [`Shape::extent`].
+    fn extent(&self, id: usize) -> Extent<R> {
+        Extent::Box(self.bounds(id))
+    }
 
     /// Prepares a ray.
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay;
@@ -108,6 +114,10 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
 
     fn bounds(&self, id: usize) -> Aabb<R> {
         self.get(id).map_or_else(Aabb::empty, T::bounds)
+    }
+
+    fn extent(&self, id: usize) -> Extent<R> {
+        self.get(id).map_or_else(|| Extent::Box(Aabb::empty()), T::extent)
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> T::PerRay {
@@ -195,6 +205,13 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         match id.checked_sub(self.0.count()) {
             None => self.0.bounds(id),
             Some(id) => self.1.bounds(id),
+        }
+    }
+
+    fn extent(&self, id: usize) -> Extent<R> {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.extent(id),
+            Some(id) => self.1.extent(id),
         }
     }
 

@@ -1,6 +1,7 @@
 //! All kinds of shapes together: one table a kind.
 
 use super::Shapes;
+use crate::bound::Extent;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::shape::{AxisBox, Cone, Cylinder, Plane, Polygon, Shape, ShapeError, Sphere, Triangle};
@@ -35,6 +36,10 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
 
     fn bounds(&self, id: usize) -> Aabb<R> {
         self.triangles.bounds(id)
+    }
+
+    fn extent(&self, id: usize) -> Extent<R> {
+        self.triangles.extent(id)
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {
@@ -117,6 +122,10 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
 
     fn bounds(&self, id: usize) -> Aabb<R> {
         self.chain().bounds(id)
+    }
+
+    fn extent(&self, id: usize) -> Extent<R> {
+        self.chain().extent(id)
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {

@@ -35,6 +35,7 @@ pub use sphere::{Length, Sphere};
 pub use transformed::{Affine, Transformed};
 pub use triangle::{Shear, Triangle};
 
+use crate::bound::Extent;
 use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Real, Vec3};
 
@@ -98,6 +99,11 @@ pub trait Shape<R: Real> {
 
     /// The smallest axis-aligned box around it, rounded outwards.
     fn bounds(&self) -> Aabb<R>;
+
+    /// What bounds are built around: its box, or something tighter in which all its hits lie.
+    fn extent(&self) -> Extent<R> {
+        Extent::Box(self.bounds())
+    }
 
     /// The nearest crossing with `min < t <= max`.
     fn hit(&self, ray: &Ray<R>, per_ray: &Self::PerRay, min: R, max: R) -> Option<R>;

@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use anyhow::Context;
+use kibiray::accel::Accel;
 use kibiray::accel::mailbox::AnyMailbox;
-use kibiray::accel::{Accel, Any};
 use kibiray::num::{Real, Vector};
 use kibiray::probe::{Counters, Probe};
 use kibiray::scene::{Scene, Solids};
@@ -15,6 +15,7 @@ use crate::engine::{Built, Picture, fastest, share};
 use crate::options::{Number, Trace};
 use crate::rays::{Answer, Query};
 use crate::report::RaysReport;
+use crate::structure::Structure;
 use crate::values::is_dash;
 use crate::{rays, tables::Tables};
 
@@ -87,7 +88,7 @@ fn trace<R: Real>(options: &Trace, stage: Stage<'_, R>) -> anyhow::Result<()> {
 /// What queries are put to.
 struct Asker<'a, R: Real> {
     scene: &'a Scene<'a, R, Solids<'a, R>>,
-    accel: &'a Any<'a, R>,
+    accel: &'a Structure<'a, R>,
     any: bool,
 }
 

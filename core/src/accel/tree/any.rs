@@ -1,0 +1,141 @@
+//! A tree whose bound is chosen while the program runs.
+
+use super::links::Links;
+use super::{Cost, Settings, Tree, footprint};
+use crate::accel::{Accel, BuildError, Visitor};
+use crate::bound::Stored;
+use crate::geom::{Aabb, Ray};
+use crate::memory::{Arena, Footprint};
+use crate::num::Real;
+use crate::scene::{Scene, Shapes};
+
+/// The kinds of bounds that a tree can consist of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// [`Aabb`].
+    #[default]
+    Box,
+}
+
+/// A tree with the smallest numbers that suffice.
+#[derive(Debug)]
+pub enum Widths<'m, R: Real, B: Stored<R>> {
+    /// Of up to 16,384 shapes.
+    Small(Tree<'m, R, B, u16>),
+    /// Of more.
+    Large(Tree<'m, R, B, u32>),
+}
+
+impl<'m, R: Real, B: Stored<R>> Widths<'m, R, B> {
+    fn build<S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        settings: Settings,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, BuildError> {
+        Ok(if is_small(scene.shapes().bounded()) {
+            Self::Small(Tree::build(scene, settings, arena)?)
+        } else {
+            Self::Large(Tree::build(scene, settings, arena)?)
+        })
+    }
+
+    fn footprint(shapes: usize, settings: Settings) -> Footprint {
+        if is_small(shapes) {
+            footprint::<R, B, u16>(shapes, settings.builder)
+        } else {
+            footprint::<R, B, u32>(shapes, settings.builder)
+        }
+    }
+
+    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        match self {
+            Self::Small(tree) => tree.walk(ray, visitor),
+            Self::Large(tree) => tree.walk(ray, visitor),
+        }
+    }
+
+    fn refit<S: Shapes<R>>(&mut self, scene: &Scene<'_, R, S>) {
+        match self {
+            Self::Small(tree) => tree.refit(scene),
+            Self::Large(tree) => tree.refit(scene),
+        }
+    }
+
+    fn summary(&self) -> Summary<R> {
+        match self {
+            Self::Small(tree) => tree.summary(),
+            Self::Large(tree) => tree.summary(),
+        }
+    }
+}
+
+fn is_small(shapes: usize) -> bool {
+    shapes <= Links::<u16>::MOST_SHAPES
+}
+
+/// A tree of one kind of bounds or another. Programs that know which one they want name it, and the
+/// others are not linked.
+#[derive(Debug)]
+pub enum AnyTree<'m, R: Real> {
+    /// Of boxes.
+    Box(Widths<'m, R, Aabb<R>>),
+}
+
+/// What a tree has come to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Summary<R> {
+    /// See [`Tree::shapes`].
+    pub shapes: usize,
+    /// See [`Tree::interior_nodes`].
+    pub interior_nodes: usize,
+    /// See [`Tree::levels`].
+    pub levels: usize,
+    /// See [`Tree::cost`].
+    pub cost: Cost<R>,
+}
+
+impl<'m, R: Real> AnyTree<'m, R> {
+    /// As [`Tree::build`].
+    ///
+    /// # Errors
+    /// Those of [`Tree::build`].
+    pub fn build<S: Shapes<R>>(
+        kind: Kind,
+        scene: &Scene<'_, R, S>,
+        settings: Settings,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, BuildError> {
+        Ok(match kind {
+            Kind::Box => Self::Box(Widths::build(scene, settings, arena)?),
+        })
+    }
+
+    /// The bytes that [`AnyTree::build`] takes.
+    pub fn footprint(kind: Kind, shapes: usize, settings: Settings) -> Footprint {
+        match kind {
+            Kind::Box => Widths::<R, Aabb<R>>::footprint(shapes, settings),
+        }
+    }
+
+    /// As [`Tree::refit`].
+    pub fn refit<S: Shapes<R>>(&mut self, scene: &Scene<'_, R, S>) {
+        match self {
+            Self::Box(tree) => tree.refit(scene),
+        }
+    }
+
+    /// What it has come to.
+    pub fn summary(&self) -> Summary<R> {
+        match self {
+            Self::Box(tree) => tree.summary(),
+        }
+    }
+}
+
+impl<R: Real> Accel<R> for AnyTree<'_, R> {
+    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        match self {
+            Self::Box(tree) => tree.walk(ray, visitor),
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Bounds made to fit again when shapes have moved, the links left as they are.
+
+use super::Tree;
+use crate::accel::Id;
+use crate::bound::Stored;
+use crate::num::Real;
+use crate::scene::{Scene, Shapes};
+
+impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
+    /// Computes all bounds anew, from the leaves up, for a scene in which the same shapes lie
+    /// elsewhere. Time in proportion to the number of nodes. Hits are right wherever the shapes
+    /// have gone; the farther, the slower: when [`Tree::cost`] has grown, build again.
+    ///
+    /// A shape that the scene has no more is hit no more, and stays in the tree.
+    pub fn refit<S: Shapes<R>>(&mut self, scene: &Scene<'_, R, S>) {
+        self.pad = scene.pad();
+        let mut next = self.links.first_up();
+        for _ in 0..self.links.end() {
+            let Some(node) = next else { return };
+            if self.links.is_leaf(node) {
+                self.set_volume(node, B::around(&scene.shapes().extent(node), self.pad));
+            } else {
+                self.fit(node);
+            }
+            next = self.links.after_up(node);
+        }
+    }
+
+    /// Bounds a node's children.
+    pub(super) fn fit(&mut self, node: usize) {
+        let mut volumes = self.links.children(node).filter_map(|child| self.volume(child));
+        let Some(first) = volumes.next() else { return };
+        let volume = volumes.fold(first, B::union);
+        self.set_volume(node, volume);
+    }
+}

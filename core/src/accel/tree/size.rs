@@ -1,0 +1,23 @@
+//! How many nodes a tree has at most, and how many bytes.
+
+use super::{Builder, Insertion};
+use crate::accel::Id;
+use crate::bound::Stored;
+use crate::memory::Footprint;
+use crate::num::Real;
+
+/// Leaves, and one node fewer above them.
+pub(super) fn most_nodes(shapes: usize) -> usize {
+    shapes.saturating_add(shapes.saturating_sub(1))
+}
+
+/// Bytes of a tree over so many shapes. Some builders take scratch besides: a list of the shapes.
+pub fn footprint<R: Real, B: Stored<R>, I: Id>(shapes: usize, builder: Builder) -> Footprint {
+    let nodes = most_nodes(shapes);
+    let kept = Footprint::of::<B::Plain>(nodes).then(Footprint::of::<[I; 2]>(nodes));
+    let scratch = match builder {
+        Builder::GoldsmithSalmon(Insertion::Curve) => Footprint::of::<I>(shapes).peak,
+        Builder::GoldsmithSalmon(_) => 0,
+    };
+    kept.then(Footprint { kept: 0, peak: scratch })
+}

@@ -1,0 +1,53 @@
+//! The axis-aligned box as a bound.
+//!
+//! T. L. Kay and J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986. A shape may be hit up to
+//! half of the pad outside its box. The other half is 32 units in the last place of the scene's
+//! greatest coordinate; the parameter at which a ray meets a side is the product of a difference of
+//! at most six such coordinates, rounded, with a rounded reciprocal: 5 units.
+
+use super::{Bound, Extent, Stored, shrunk};
+use crate::geom::{Aabb, Ray, Slopes};
+use crate::num::{Real, Vec3, Vector};
+
+impl<R: Real> Bound<R> for Aabb<R> {
+    type PerRay = Slopes<R>;
+
+    fn around(extent: &Extent<R>, pad: R) -> Self {
+        extent.bounds().grown(pad)
+    }
+
+    fn union(self, other: Self) -> Self {
+        Self::union(self, other)
+    }
+
+    fn half_area(&self) -> R {
+        let size = self.size();
+        let (x, y, z) = (shrunk(size.x()), shrunk(size.y()), shrunk(size.z()));
+        R::narrow(x.times(y) + y.times(z) + z.times(x))
+    }
+
+    fn middle(&self) -> Vec3<R> {
+        self.lo * R::HALF + self.hi * R::HALF
+    }
+
+    fn per_ray(ray: &Ray<R>) -> Slopes<R> {
+        Slopes::of(ray)
+    }
+
+    #[inline]
+    fn enter(&self, slopes: &Slopes<R>, start: R, limit: R) -> Option<R> {
+        slopes.clip(self.lo, self.hi, start, limit).map(|(enter, _)| enter)
+    }
+}
+
+impl<R: Real> Stored<R> for Aabb<R> {
+    type Plain = [[R; 3]; 2];
+
+    fn plain(self) -> Self::Plain {
+        [self.lo.to_array(), self.hi.to_array()]
+    }
+
+    fn of([lo, hi]: &Self::Plain) -> Self {
+        Self { lo: Vec3::<R>::from_array(*lo), hi: Vec3::<R>::from_array(*hi) }
+    }
+}

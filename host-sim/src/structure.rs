@@ -1,0 +1,74 @@
+//! Any structure that `--accel` names.
+
+use kibiray::accel::tree::{self, AnyTree};
+use kibiray::accel::{Accel, Any, BuildError, Kind, Visitor};
+use kibiray::geom::Ray;
+use kibiray::memory::Arena;
+use kibiray::num::Real;
+use kibiray::scene::{Scene, Shapes};
+
+use crate::options::{AccelKind, BoundKind, BuilderKind, Common, InsertionKind, Walk};
+
+/// A structure of the core, or one that its plan does not choose.
+#[derive(Debug)]
+pub enum Structure<'m, R: Real> {
+    /// What the plan can choose.
+    Planned(Any<'m, R>),
+    /// A tree of bounds.
+    Tree(AnyTree<'m, R>),
+}
+
+impl<'m, R: Real> Structure<'m, R> {
+    /// Builds what the options name; `planned` where they leave it to the plan.
+    ///
+    /// # Errors
+    /// Those of the structure.
+    pub fn build<S: Shapes<R>>(
+        options: &Common,
+        planned: Kind,
+        scene: &Scene<'_, R, S>,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, BuildError> {
+        Ok(match options.accel {
+            AccelKind::Tree => {
+                let (bound, settings) = (bound(options), tree_settings(options));
+                Self::Tree(AnyTree::build(bound, scene, settings, arena)?)
+            }
+            _ => Self::Planned(Any::build(planned, scene, arena)?),
+        })
+    }
+}
+
+/// The kind of bounds that options ask for.
+pub fn bound(options: &Common) -> tree::Kind {
+    match options.bound.unwrap_or(BoundKind::Box) {
+        BoundKind::Box => tree::Kind::Box,
+    }
+}
+
+/// The tree that options ask for.
+pub fn tree_settings(options: &Common) -> tree::Settings {
+    let insertion = match options.insertion.unwrap_or(InsertionKind::Shuffled) {
+        InsertionKind::File => tree::Insertion::File,
+        InsertionKind::Shuffled => tree::Insertion::Shuffled(options.seed.unwrap_or(0)),
+        InsertionKind::Curve => tree::Insertion::Curve,
+    };
+    let builder = match options.builder.unwrap_or(BuilderKind::Gs) {
+        BuilderKind::Gs => tree::Builder::GoldsmithSalmon(insertion),
+    };
+    let walk = match options.walk {
+        Some(Walk::Heap) => tree::Walk::Heap,
+        Some(Walk::Stored) => tree::Walk::Stored,
+        _ => tree::Walk::Ordered,
+    };
+    tree::Settings { builder, walk }
+}
+
+impl<R: Real> Accel<R> for Structure<'_, R> {
+    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        match self {
+            Self::Planned(accel) => accel.walk(ray, visitor),
+            Self::Tree(tree) => tree.walk(ray, visitor),
+        }
+    }
+}
