@@ -5,15 +5,15 @@
 //! greatest coordinate; the parameter at which a ray meets a side is the product of a difference of
 //! at most six such coordinates, rounded, with a rounded reciprocal: 5 units.
 
-use super::{Bound, Extent, Stored, shrunk};
+use super::{Bound, Region, Stored, shrunk};
 use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Real, Vec3, Vector};
 
 impl<R: Real> Bound<R> for Aabb<R> {
     type PerRay = Slopes<R>;
 
-    fn around(extent: &Extent<R>, pad: R) -> Self {
-        extent.bounds().grown(pad)
+    fn around(region: &Region<R>, pad: R) -> Self {
+        region.bounds().grown(pad)
     }
 
     fn union(self, other: Self) -> Self {

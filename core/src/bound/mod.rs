@@ -7,7 +7,7 @@
 //! # What a bound may do
 //! A hit that testing every shape would find must not be lost, whatever is rounded. So a bound says
 //! no only if the ray passes by all that it was built around by more than rounding can explain:
-//! * it is built around an [`Extent`], which contains every place where its shape may be hit, up to
+//! * it is built around an [`Region`], which contains every place where its shape may be hit, up to
 //!   [`Ray::slack`] outside it, and moved outwards by a multiple of
 //!   [`Scene::pad`](crate::scene::Scene::pad), twice the slack. What the multiple is made of is
 //!   derived in the file of each bound, for rays that start at most four times the scene's greatest
@@ -17,9 +17,9 @@
 //!   side that is not a number, which no checked shape gives, is hit by nothing.
 
 mod aabb;
-mod extent;
+mod region;
 
-pub use extent::Extent;
+pub use region::Region;
 
 use crate::geom::Ray;
 use crate::num::{Real, Vec3};
@@ -31,7 +31,7 @@ pub trait Bound<R: Real>: Copy + core::fmt::Debug {
     type PerRay: Copy;
 
     /// Around a shape; `pad` is that of its scene.
-    fn around(extent: &Extent<R>, pad: R) -> Self;
+    fn around(region: &Region<R>, pad: R) -> Self;
 
     /// Around two of its kind.
     #[must_use]
@@ -73,5 +73,5 @@ pub fn pays<R: Real>(bound: R, probability: R, inside: R) -> bool {
 /// Lengths are brought down by this before they are squared, so that areas stay in the range of
 /// every number type.
 fn shrunk<R: Real>(length: R) -> R {
-    length * (R::ONE / R::from_i32(16))
+    length * R::fraction(1, 16)
 }

@@ -5,7 +5,7 @@
 //! `&[Sphere<f32>]`, `(&[Sphere<f32>], &[Triangle<f32>])`, or [`Solids`](super::Solids) for all of
 //! them. A set of one's own makes any object traceable.
 
-use crate::bound::Extent;
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3};
 use crate::shape::{Shape, ShapeError};
@@ -39,9 +39,9 @@ pub trait Shapes<R: Real> {
     /// See [`Shape::bounds`].
     fn bounds(&self, id: usize) -> Aabb<R>;
 
-    /// See [`Shape::extent`].
-    fn extent(&self, id: usize) -> Extent<R> {
-        Extent::Box(self.bounds(id))
+    /// See [`Shape::region`].
+    fn region(&self, id: usize) -> Region<R> {
+        Region::Box(self.bounds(id))
     }
 
     /// Prepares a ray.
@@ -116,8 +116,8 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
         self.get(id).map_or_else(Aabb::empty, T::bounds)
     }
 
-    fn extent(&self, id: usize) -> Extent<R> {
-        self.get(id).map_or_else(|| Extent::Box(Aabb::empty()), T::extent)
+    fn region(&self, id: usize) -> Region<R> {
+        self.get(id).map_or_else(|| Region::Box(Aabb::empty()), T::region)
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> T::PerRay {
@@ -208,10 +208,10 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         }
     }
 
-    fn extent(&self, id: usize) -> Extent<R> {
+    fn region(&self, id: usize) -> Region<R> {
         match id.checked_sub(self.0.count()) {
-            None => self.0.extent(id),
-            Some(id) => self.1.extent(id),
+            None => self.0.region(id),
+            Some(id) => self.1.region(id),
         }
     }
 

@@ -1,7 +1,7 @@
 //! All kinds of shapes together: one table a kind.
 
 use super::Shapes;
-use crate::bound::Extent;
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::shape::{AxisBox, Cone, Cylinder, Plane, Polygon, Shape, ShapeError, Sphere, Triangle};
@@ -38,8 +38,8 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
         self.triangles.bounds(id)
     }
 
-    fn extent(&self, id: usize) -> Extent<R> {
-        self.triangles.extent(id)
+    fn region(&self, id: usize) -> Region<R> {
+        self.triangles.region(id)
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {
@@ -124,8 +124,8 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
         self.chain().bounds(id)
     }
 
-    fn extent(&self, id: usize) -> Extent<R> {
-        self.chain().extent(id)
+    fn region(&self, id: usize) -> Region<R> {
+        self.chain().region(id)
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {

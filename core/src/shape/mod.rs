@@ -35,7 +35,7 @@ pub use sphere::{Length, Sphere};
 pub use transformed::{Affine, Transformed};
 pub use triangle::{Shear, Triangle};
 
-use crate::bound::Extent;
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Real, Vec3};
 
@@ -101,8 +101,8 @@ pub trait Shape<R: Real> {
     fn bounds(&self) -> Aabb<R>;
 
     /// What bounds are built around: its box, or something tighter in which all its hits lie.
-    fn extent(&self) -> Extent<R> {
-        Extent::Box(self.bounds())
+    fn region(&self) -> Region<R> {
+        Region::Box(self.bounds())
     }
 
     /// The nearest crossing with `min < t <= max`.

@@ -36,7 +36,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
                 cost.shapes = cost.shapes + probability;
             } else {
                 let children = self.links.children(node).count();
-                cost.bounds = cost.bounds + probability * R::from_i32(children as i32);
+                cost.bounds = cost.bounds + probability.times_int(children as i32);
             }
             next = self.links.after_up(node);
         }

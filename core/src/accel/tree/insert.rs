@@ -130,7 +130,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
             return Err(InsertError::Present { id });
         }
         self.pad = self.pad.max(scene.pad());
-        self.set_volume(id, B::around(&scene.shapes().extent(id), self.pad));
+        self.set_volume(id, B::around(&scene.shapes().region(id), self.pad));
         self.links.mark_leaf(id);
         Ok(id)
     }
@@ -148,7 +148,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
             let volume = self.volume(node)?;
             let whole = volume.union(new).half_area();
             let children = self.links.children(node).count();
-            let growth = R::from_i32(children as i32) * (whole - volume.half_area());
+            let growth = (whole - volume.half_area()).times_int(children as i32);
             inherited = inherited + growth;
             if node == self.links.root()? {
                 // The new node has two children, the root and the shape.

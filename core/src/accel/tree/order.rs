@@ -75,9 +75,8 @@ fn curve_place<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, id: usize) -> u32
     let (all, own) = (scene.bounds(), scene.shapes().bounds(id));
     let from = (own.lo - all.lo) * R::HALF + (own.hi - all.lo) * R::HALF;
     let size = all.size().max_abs();
-    let cells = R::from_i32((1 << DIGITS) - 1);
-    let cell = |x: R| if size > R::ZERO { (x / size * cells).to_i32().max(0) as u32 } else { 0 };
-    hilbert(from.to_array().map(|x| cell(x).min((1 << DIGITS) - 1)))
+    let most = (1 << DIGITS) - 1;
+    hilbert(from.to_array().map(|x| x.proportion(size, most).max(0).min(most) as u32))
 }
 
 /// The place of a cell on Hilbert's curve: J. Skilling, "Programming the Hilbert curve", AIP

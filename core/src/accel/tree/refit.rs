@@ -18,7 +18,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
         for _ in 0..self.links.end() {
             let Some(node) = next else { return };
             if self.links.is_leaf(node) {
-                self.set_volume(node, B::around(&scene.shapes().extent(node), self.pad));
+                self.set_volume(node, B::around(&scene.shapes().region(node), self.pad));
             } else {
                 self.fit(node);
             }

@@ -6,7 +6,7 @@ use crate::num::{Real, Vec3, Vector};
 /// A body that contains every place where a shape may be hit, give or take
 /// [`Ray::slack`](crate::geom::Ray::slack): its box, or something tighter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Extent<R: Real> {
+pub enum Region<R: Real> {
     /// No more is known than a box.
     Box(Aabb<R>),
     /// A ball.
@@ -41,7 +41,7 @@ pub enum Extent<R: Real> {
     },
 }
 
-impl<R: Real> Extent<R> {
+impl<R: Real> Region<R> {
     /// The box around it.
     pub fn bounds(&self) -> Aabb<R> {
         match *self {
