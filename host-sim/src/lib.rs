@@ -8,6 +8,7 @@
 pub mod commands;
 pub mod description;
 pub mod engine;
+pub mod frame;
 pub mod image;
 pub mod options;
 pub mod picture;

@@ -319,7 +319,7 @@ pub enum InsertionKind {
 pub enum Number {
     F32,
     F64,
-    #[value(help = "not built yet")]
+    #[value(help = "32-bit fixed point, the scene normalised; fast without a floating-point unit")]
     Fixed,
 }
 
@@ -422,9 +422,6 @@ impl Common {
             || self.insertion.is_some()
             || self.seed.is_some()
             || self.walk.is_some_and(Walk::is_of_tree);
-        if self.num == Number::Fixed {
-            return Err("--num fixed is not built yet: take f32 or f64".into());
-        }
         if self.overlap == Some(Overlap::Exact) {
             return Err("--overlap exact is not built yet: take box".into());
         }

@@ -2,7 +2,9 @@
 
 use kibiray::accel::Hit;
 use kibiray::geom::{Interval, NotARay, Ray};
-use kibiray::num::{Real, Vec3, Vector};
+use kibiray::num::Real;
+
+use crate::frame::{Frame, Way};
 
 /// First line of a file of queries.
 pub const QUERIES: &str = "ox,oy,oz,dx,dy,dz,tmin,tmax";
@@ -17,6 +19,8 @@ pub struct Query<R: Real> {
     pub ray: Result<Ray<R>, NotARay>,
     /// Where a hit counts.
     pub interval: Interval<R>,
+    /// How its parameters become those that were asked for.
+    pub way: Way,
 }
 
 /// What a query finds.
@@ -48,11 +52,11 @@ pub struct CsvError {
     pub what: String,
 }
 
-/// Reads queries.
+/// Reads queries, for a scene in some frame.
 ///
 /// # Errors
 /// The first line that is not what it should be.
-pub fn parse<R: Real>(bytes: &[u8]) -> Result<Vec<Query<R>>, CsvError> {
+pub fn parse<R: Real>(bytes: &[u8], frame: &Frame) -> Result<Vec<Query<R>>, CsvError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
         let line = 1 + before.iter().filter(|b| **b == b'\n').count();
@@ -62,10 +66,10 @@ pub fn parse<R: Real>(bytes: &[u8]) -> Result<Vec<Query<R>>, CsvError> {
     if lines.next().is_none_or(|(_, header)| header != QUERIES) {
         return Err(CsvError { line: 1, what: format!("the header must be {QUERIES}") });
     }
-    lines.map(|(line, row)| query(row).map_err(|what| CsvError { line, what })).collect()
+    lines.map(|(line, row)| query(row, frame).map_err(|what| CsvError { line, what })).collect()
 }
 
-fn query<R: Real>(row: &str) -> Result<Query<R>, String> {
+fn query<R: Real>(row: &str, frame: &Frame) -> Result<Query<R>, String> {
     let mut numbers = [0.0; 8];
     let mut fields = row.split(',');
     for (number, name) in numbers.iter_mut().zip(QUERIES.split(',')) {
@@ -80,31 +84,33 @@ fn query<R: Real>(row: &str) -> Result<Query<R>, String> {
         return Err(format!("more than 8 fields: a ray is {QUERIES}"));
     }
     let [ox, oy, oz, dx, dy, dz, min, max] = numbers;
-    let (origin, direction) =
-        (Vec3::<R>::from_f64([ox, oy, oz]), Vec3::<R>::from_f64([dx, dy, dz]));
-    let interval = Interval::new(R::from_f64(min), R::from_f64(max));
-    Ok(Query { ray: Ray::new(origin, direction), interval })
+    Ok(match frame.query([ox, oy, oz], [dx, dy, dz], (min, max)) {
+        Ok((ray, interval, way)) => Query { ray: Ok(ray), interval, way },
+        Err(not) => Query { ray: Err(not), interval: Interval::RAY, way: Way::STRAIGHT },
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const FILE: Frame = Frame::FILE;
+
     #[test]
     fn rows_are_rays_or_say_why_not() {
         let file = |row: &str| format!("{QUERIES}\n{row}\n").into_bytes();
-        let queries = parse::<f32>(&file("0,0,-5,0,0,1e0,0,inf\r")).unwrap();
+        let queries = parse::<f32>(&file("0,0,-5,0,0,1e0,0,inf\r"), &FILE).unwrap();
         assert!(queries[0].ray.is_ok() && queries[0].interval.max == f32::INFINITY);
         for no_ray in ["nan,0,0,0,0,1,0,inf", "0,0,0,0,-0,0,0,1", "0,0,0,0,INF,1,0,1"] {
-            assert!(parse::<f32>(&file(no_ray)).unwrap()[0].ray.is_err(), "{no_ray}");
+            assert!(parse::<f32>(&file(no_ray), &FILE).unwrap()[0].ray.is_err(), "{no_ray}");
         }
         for bad in ["", "1,2,3", "0,0,0,0,0,1,0,x", "0,0,0,0,0,1,0,1,2", "0,0,,0,0,1,0,1"] {
-            assert_eq!(parse::<f32>(&file(bad)).unwrap_err().line, 2, "{bad}");
+            assert_eq!(parse::<f32>(&file(bad), &FILE).unwrap_err().line, 2, "{bad}");
         }
-        assert_eq!(parse::<f32>(b"").unwrap_err().line, 1);
-        assert_eq!(parse::<f32>(b"ox,oy\n").unwrap_err().line, 1);
+        assert_eq!(parse::<f32>(b"", &FILE).unwrap_err().line, 1);
+        assert_eq!(parse::<f32>(b"ox,oy\n", &FILE).unwrap_err().line, 1);
         let mut binary = file("0,0,0,0,0,1,0,1");
         binary.extend([0xff, b'\n']);
-        assert_eq!(parse::<f32>(&binary).unwrap_err().line, 3);
+        assert_eq!(parse::<f32>(&binary, &FILE).unwrap_err().line, 3);
     }
 }

@@ -51,7 +51,7 @@ fn length(v: Triple) -> f64 {
 }
 
 /// The box around all corners and spheres; cones by their ends, planes left out.
-fn bounds(description: &Description) -> (Triple, Triple) {
+pub fn bounds(description: &Description) -> (Triple, Triple) {
     let mut lo = [f64::INFINITY; 3];
     let mut hi = [f64::NEG_INFINITY; 3];
     let mut include = |p: &Triple, radius: f64| {

@@ -119,7 +119,6 @@ fn one_line(folder: &Path, arguments: &str, status: i32) -> String {
 fn what_is_not_built_yet_says_so() {
     let folder = folder(&[]);
     let cases = [
-        ("stats scene.nff --num fixed", "--num fixed is not built yet: take f32 or f64"),
         ("stats scene.nff --overlap exact", "--overlap exact is not built yet: take box"),
         (
             "stats scene.nff --accel octree --grid 1x1x1",

@@ -1,8 +1,9 @@
 //! Guards promise 4: the same answer with every structure. A hit from a grid or an octree, of any
 //! resolution, with any mailbox, grown into any budget, is bit for bit the one of testing all.
 
-use kibiray::num::Real;
+use kibiray::num::{Fixed, Real};
 use kibiray_host_sim::description::load::load;
+use kibiray_host_sim::frame::Frame;
 use kibiray_host_sim::tables::Tables;
 use kibiray_tests::{Compared, Memory, SMALL_SCENES, UNLIMITED, compare, shots};
 
@@ -12,7 +13,9 @@ fn conform<R: Real>(number: &str) {
     let mut memory = Memory::new(UNLIMITED);
     let mut all = Compared::default();
     for name in SMALL_SCENES {
-        let tables = Tables::<R>::new(&load(name).unwrap()).unwrap();
+        let description = load(name).unwrap();
+        let moved = Frame::of::<R>(&description).apply(&description).into_owned();
+        let tables = Tables::<R>::new(&moved).unwrap();
         let polygons = tables.polygons();
         let scene = tables.scene(&polygons).unwrap();
         let shots = shots(scene.bounds(), tables.view(), RAYS_PER_SCENE, 1987);
@@ -30,4 +33,9 @@ fn structures_give_the_hits_of_testing_all_in_f32() {
 #[test]
 fn structures_give_the_hits_of_testing_all_in_f64() {
     conform::<f64>("f64");
+}
+
+#[test]
+fn structures_give_the_hits_of_testing_all_in_fixed_point() {
+    conform::<Fixed>("fixed");
 }

@@ -45,7 +45,11 @@ impl<R: Real> Hull<R> {
 
     /// What is wrong with it; `radii` together decide whether there is a surface.
     pub(super) fn check(&self, radii: R) -> Result<(), ShapeError> {
-        let reach = self.base.max_abs() + self.height.abs() + radii;
+        // A normalised scene has no room for less than the box.
+        let reach = match R::EXACT {
+            true => self.bounds().max_abs(),
+            false => self.base.max_abs() + self.height.abs() + radii,
+        };
         let negative = |x| x < R::ZERO;
         if !(self.base.is_finite() && self.axis.is_finite() && R::is_workable(reach)) {
             Err(ShapeError::NotFinite)

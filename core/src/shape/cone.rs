@@ -147,7 +147,7 @@ impl<R: Real> Shape<R> for Cone<R> {
 
     fn check(&self) -> Result<(), ShapeError> {
         self.hull().check(self.base_radius.abs() + self.apex_radius.abs())?;
-        if R::is_workable(self.growth()) { Ok(()) } else { Err(ShapeError::NotFinite) }
+        if R::is_workable_normal(self.growth().abs()) { Ok(()) } else { Err(ShapeError::NotFinite) }
     }
 
     fn bounds(&self) -> Aabb<R> {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kibiray::num::Real;
+use kibiray::num::{Fixed, Real};
 use kibiray::scene::Camera;
 use kibiray::trace::{Secondary, Settings};
 
@@ -42,7 +42,10 @@ pub(super) fn run(options: Option<Render>) -> anyhow::Result<()> {
         Number::F64 => stage::set::<f64>(&loaded, common, ram, picture, |it| {
             render(&options, &output, size, it)
         }),
-        _ => stage::set::<f32>(&loaded, common, ram, picture, |it| {
+        Number::Fixed => stage::set::<Fixed>(&loaded, common, ram, picture, |it| {
+            render(&options, &output, size, it)
+        }),
+        Number::F32 => stage::set::<f32>(&loaded, common, ram, picture, |it| {
             render(&options, &output, size, it)
         }),
     }
@@ -75,7 +78,7 @@ fn render<R: Real>(
         let skipped = report.scene.skipped;
         eprintln!("warning: left out for having no area or radius: {skipped} of the shapes");
     }
-    let aspect = R::from_i32(width.into()) / R::from_i32(height.into());
+    let aspect = R::fraction(width.into(), height.into());
     let camera = Camera::new(tables.view(), aspect)?;
     let settings = Settings {
         max_depth: options.max_depth,

@@ -13,6 +13,7 @@ use super::Usage;
 use crate::description::Description;
 use crate::description::load::load;
 use crate::engine::{Built, Memory, Pass, Picture};
+use crate::frame::Frame;
 use crate::options::{Common, Number};
 use crate::report::{
     AccelReport, MemoryReport, RaysReport, Report, SceneReport, TimeReport, WorkReport,
@@ -26,6 +27,7 @@ pub(super) const DEFAULT_RAM: usize = 256 << 10;
 pub(super) struct Stage<'a, R: Real> {
     pub(super) tables: &'a Tables<R>,
     pub(super) scene: &'a Scene<'a, R, Solids<'a, R>>,
+    pub(super) frame: Frame,
     pub(super) built: Built<'a, R>,
     /// The report as far as it is known before a ray is shot.
     pub(super) report: Report,
@@ -59,7 +61,9 @@ pub(super) fn set<R: Real>(
     let Loaded { description, seconds } = loaded;
     let start = Instant::now();
     let named = || description.name.escape_debug().to_string();
-    let tables = Tables::<R>::new(description).with_context(named)?;
+    let frame = Frame::of::<R>(description);
+    let moved = frame.apply(description);
+    let tables = Tables::<R>::new(&moved).with_context(named)?;
     let polygons = tables.polygons();
     let scene = tables.scene(&polygons).with_context(named)?;
     let load_s = seconds + start.elapsed().as_secs_f64();
@@ -84,7 +88,7 @@ pub(super) fn set<R: Real>(
         time: TimeReport { load_s, build_s: built.seconds, ..TimeReport::default() },
         image: None,
     };
-    act(Stage { tables: &tables, scene: &scene, built, report })
+    act(Stage { tables: &tables, scene: &scene, frame, built, report })
 }
 
 impl Report {

@@ -1,6 +1,6 @@
 //! `stats`: the published ray set, counted and timed.
 
-use kibiray::num::Real;
+use kibiray::num::{Fixed, Real};
 use kibiray::probe::{Counters, Probe};
 use kibiray::scene::Camera;
 use kibiray::trace::{Secondary, Settings, Tracer};
@@ -21,7 +21,10 @@ pub(super) fn run(options: &Stats) -> anyhow::Result<()> {
         Number::F64 => {
             stage::set::<f64>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
         }
-        _ => {
+        Number::Fixed => stage::set::<Fixed>(&loaded, &options.common, ram, Picture::NONE, |it| {
+            trace(options, it)
+        }),
+        Number::F32 => {
             stage::set::<f32>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
         }
     }
@@ -76,8 +79,7 @@ fn trace_row<R: Real>(
     row: i32,
     probe: &mut impl Probe,
 ) {
-    let pixels = R::from_i32(CORNERS - 1);
-    let across = |i: i32| R::from_i32(2 * i) / pixels - R::ONE;
+    let across = |i: i32| R::fraction(2 * i, CORNERS - 1) - R::ONE;
     for column in 0..CORNERS {
         if let Some(ray) = camera.ray(across(column), -across(row)) {
             std::hint::black_box(tracer.color(ray, probe));

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
-use kibiray::num::Real;
+use kibiray::num::{Fixed, Real};
 use kibiray::scene::Camera;
 use kibiray::trace::Settings;
 use serde::Serialize;
@@ -68,7 +68,11 @@ pub(super) fn run(options: &Sweep) -> anyhow::Result<()> {
                 report = Some(trace(options, it)?);
                 Ok(())
             }),
-            _ => stage::set::<f32>(&loaded, &options.common, ram, picture, |it| {
+            Number::Fixed => stage::set::<Fixed>(&loaded, &options.common, ram, picture, |it| {
+                report = Some(trace(options, it)?);
+                Ok(())
+            }),
+            Number::F32 => stage::set::<f32>(&loaded, &options.common, ram, picture, |it| {
                 report = Some(trace(options, it)?);
                 Ok(())
             }),
@@ -104,8 +108,7 @@ fn default_output(scene: &str) -> PathBuf {
 fn trace<R: Real>(options: &Sweep, stage: Stage<'_, R>) -> anyhow::Result<Report> {
     let Stage { tables, scene, built, mut report, .. } = stage;
     let (width, height) = options.size;
-    let camera =
-        Camera::new(tables.view(), R::from_i32(width.into()) / R::from_i32(height.into()))?;
+    let camera = Camera::new(tables.view(), R::fraction(width.into(), height.into()))?;
     // One pass to count, at least one for the time.
     let repeat = options.common.repeat + 1;
     let bar = ProgressBar::hidden();

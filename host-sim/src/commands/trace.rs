@@ -5,13 +5,14 @@ use std::io::{self, Write};
 use anyhow::Context;
 use kibiray::accel::Accel;
 use kibiray::accel::mailbox::AnyMailbox;
-use kibiray::num::{Real, Vector};
+use kibiray::num::{Fixed, Real, Vector};
 use kibiray::probe::{Counters, Probe};
 use kibiray::scene::{Scene, Solids};
 
 use super::stage::{self, DEFAULT_RAM, Stage};
 use super::{Usage, shown};
 use crate::engine::{Built, Picture, fastest, share};
+use crate::frame::{Frame, Way};
 use crate::options::{Number, Trace};
 use crate::rays::{Answer, Query};
 use crate::report::RaysReport;
@@ -30,7 +31,10 @@ pub(super) fn run(options: &Trace) -> anyhow::Result<()> {
         Number::F64 => {
             stage::set::<f64>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
         }
-        _ => {
+        Number::Fixed => stage::set::<Fixed>(&loaded, &options.common, ram, Picture::NONE, |it| {
+            trace(options, it)
+        }),
+        Number::F32 => {
             stage::set::<f32>(&loaded, &options.common, ram, Picture::NONE, |it| trace(options, it))
         }
     }
@@ -47,9 +51,9 @@ struct Worker<'a> {
 }
 
 fn trace<R: Real>(options: &Trace, stage: Stage<'_, R>) -> anyhow::Result<()> {
-    let Stage { tables, scene, built, mut report, .. } = stage;
+    let Stage { tables, scene, frame, built, mut report, .. } = stage;
     let Built { accel, mailboxes, .. } = built;
-    let queries = read::<R>(options)?;
+    let queries = read::<R>(options, &frame)?;
     let mut answers = vec![Answer::Invalid; queries.len()];
     let worker =
         |mailbox| Worker { mailbox, counters: Counters::default(), rays: RaysReport::default() };
@@ -112,7 +116,7 @@ impl<R: Real> Asker<'_, R> {
     }
 }
 
-fn read<R: Real>(options: &Trace) -> anyhow::Result<Vec<Query<R>>> {
+fn read<R: Real>(options: &Trace, frame: &Frame) -> anyhow::Result<Vec<Query<R>>> {
     let name = shown(&options.rays);
     let bytes = if is_dash(&options.rays) {
         let mut bytes = Vec::new();
@@ -121,7 +125,8 @@ fn read<R: Real>(options: &Trace) -> anyhow::Result<Vec<Query<R>>> {
         std::fs::read(&options.rays)
     };
     let bytes = bytes.with_context(|| name.clone())?;
-    rays::parse(&bytes).map_err(|error| anyhow::anyhow!("{name}:{}: {}", error.line, error.what))
+    rays::parse(&bytes, frame)
+        .map_err(|error| anyhow::anyhow!("{name}:{}: {}", error.line, error.what))
 }
 
 fn write<R: Real>(
@@ -141,7 +146,12 @@ fn write<R: Real>(
                 let [x, y, z] = surface.map_or([R::ZERO; 3], |surface| surface.normal.to_array());
                 let (t, id) = (hit.t, tables.file_id(hit.id));
                 // Debug gives the shortest digits that read back as the same number.
-                writeln!(text, "{t:?},{id},{x:?},{y:?},{z:?}")?;
+                if query.way == Way::STRAIGHT {
+                    write!(text, "{t:?}")?;
+                } else {
+                    write!(text, "{:?}", query.way.restore(t.to_f64()))?;
+                }
+                writeln!(text, ",{id},{x:?},{y:?},{z:?}")?;
             }
             (Answer::Invalid, _) => writeln!(text, "nan,-1,0,0,0")?,
             _ => writeln!(text, "inf,-1,0,0,0")?,

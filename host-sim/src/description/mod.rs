@@ -134,3 +134,25 @@ pub enum Solid {
         normal: Triple,
     },
 }
+
+impl Solid {
+    /// Moves its points, and multiplies its lengths by `scale`.
+    pub fn moved(&mut self, point: &impl Fn(Triple) -> Triple, scale: f64) {
+        match self {
+            Self::Sphere { center, radius } => {
+                *center = point(*center);
+                *radius *= scale;
+            }
+            Self::Cone { base, base_radius, apex, apex_radius, .. } => {
+                (*base, *apex) = (point(*base), point(*apex));
+                *base_radius *= scale;
+                *apex_radius *= scale;
+            }
+            Self::Polygon { vertices, .. } | Self::Fan { vertices, .. } => {
+                vertices.iter_mut().for_each(|v| *v = point(*v));
+            }
+            Self::Box { lo, hi } => (*lo, *hi) = (point(*lo), point(*hi)),
+            Self::Plane { point: p, .. } => *p = point(*p),
+        }
+    }
+}

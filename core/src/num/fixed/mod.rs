@@ -322,7 +322,7 @@ impl Real for Fixed {
         reach <= Self::HALF
     }
     fn is_workable_normal(reach: Self) -> bool {
-        reach <= Self::from_i32(2)
+        reach <= Self::from_i32(4)
     }
     /// Directions across an axis of less than 8 steps are none: over the whole way they come by 40.
     fn is_divisor(squared: I8F56) -> bool {
