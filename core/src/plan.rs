@@ -1,6 +1,6 @@
 //! From a scene and a number of bytes to a structure with its parameters, and the reason.
 
-use crate::accel::{self, BuildError, Huge, bvh, grid, mailbox, octree};
+use crate::accel::{self, BuildError, Huge, Overlap, bvh, grid, mailbox, octree};
 use crate::memory::OutOfArena;
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
@@ -33,6 +33,8 @@ pub struct Wishes {
     pub max_level: Option<u32>,
     /// What grids and octrees do with shapes much larger than the others.
     pub huge: Option<Huge>,
+    /// When a shape is listed in a cell of a grid or an octree.
+    pub overlap: Option<Overlap>,
     /// Whether a grid's empty cells know how far it is to the next that is not.
     pub macro_cells: Option<bool>,
     /// Which cells of an octree are divided first.
@@ -48,9 +50,13 @@ impl Wishes {
         self.huge.unwrap_or(Huge::Aside)
     }
 
+    fn overlap(&self) -> Overlap {
+        self.overlap.unwrap_or(Overlap::Exact)
+    }
+
     fn grid(&self, resolution: [u32; 3]) -> grid::Settings {
         let macro_cells = self.macro_cells.unwrap_or(true);
-        grid::Settings { resolution, huge: self.huge(), macro_cells }
+        grid::Settings { resolution, huge: self.huge(), overlap: self.overlap(), macro_cells }
     }
 
     /// An octree that takes what memory it can use.
@@ -63,6 +69,7 @@ impl Wishes {
             growth: octree::Growth {
                 limits,
                 huge: self.huge(),
+                overlap: self.overlap(),
                 order: self.order.unwrap_or_default(),
             },
             store: self.store.unwrap_or_default(),

@@ -13,7 +13,7 @@ use kibiray::scene::{Scene, Shapes, Solids};
 use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 
 use crate::options::{
-    AccelKind, Antialiasing, Common, Growth, Huge, MailboxKind, Store, Switch, Walk,
+    AccelKind, Antialiasing, Common, Growth, Huge, MailboxKind, Overlap, Store, Switch, Walk,
 };
 use crate::structure;
 
@@ -73,6 +73,10 @@ pub fn wishes(options: &Common) -> Wishes {
         huge: options.huge.map(|huge| match huge {
             Huge::Inside => accel::Huge::Inside,
             Huge::Aside => accel::Huge::Aside,
+        }),
+        overlap: options.overlap.map(|overlap| match overlap {
+            Overlap::Box => accel::Overlap::Box,
+            Overlap::Exact => accel::Overlap::Exact,
         }),
         order: options.growth.map(|growth| match growth {
             Growth::Fifo => octree::Order::Breadth,

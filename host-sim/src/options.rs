@@ -240,7 +240,7 @@ pub struct Common {
     /// Tree: which of all ways to shuffle [default: 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u32>,
-    /// When a shape belongs to a cell; `box`: its box touches the cell [default: box]
+    /// Grid and octree: when a shape belongs to a cell [default: by the plan; box for stats]
     #[arg(long, value_enum)]
     pub overlap: Option<Overlap>,
     /// Also write the report as JSON; `-`: standard output
@@ -400,8 +400,9 @@ impl Walk {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[allow(missing_docs)]
 pub enum Overlap {
+    #[value(help = "its box touches the cell")]
     Box,
-    #[value(help = "not built yet")]
+    #[value(help = "its surface may pass through the cell")]
     Exact,
 }
 
@@ -422,9 +423,6 @@ impl Common {
             || self.insertion.is_some()
             || self.seed.is_some()
             || self.walk.is_some_and(Walk::is_of_tree);
-        if self.overlap == Some(Overlap::Exact) {
-            return Err("--overlap exact is not built yet: take box".into());
-        }
         if grid && octree {
             return Err("--grid and --macro-cells are for grids, --max-objects, --max-level, --store and --walk are for octrees".into());
         }
@@ -455,6 +453,7 @@ impl Common {
         if self.grid.is_some() {
             self.macro_cells.get_or_insert(Switch::Off);
         }
+        self.overlap.get_or_insert(Overlap::Box);
         if octree || self.grid.is_some() {
             self.huge.get_or_insert(Huge::Inside);
         }

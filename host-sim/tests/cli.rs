@@ -116,10 +116,9 @@ fn one_line(folder: &Path, arguments: &str, status: i32) -> String {
 }
 
 #[test]
-fn what_is_not_built_yet_says_so() {
+fn options_that_mean_nothing_together_say_so() {
     let folder = folder(&[]);
     let cases = [
-        ("stats scene.nff --overlap exact", "--overlap exact is not built yet: take box"),
         (
             "stats scene.nff --accel octree --grid 1x1x1",
             "--grid and --macro-cells are only for --accel grid",

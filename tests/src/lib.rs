@@ -1,6 +1,8 @@
 //! Helpers shared by the test programs of kibiray.
 
-use kibiray::accel::{Accel, Any, BuildError, Hit, Huge, Kind, bvh, grid, mailbox, octree};
+use kibiray::accel::{
+    Accel, Any, BuildError, Hit, Huge, Kind, Overlap, bvh, grid, mailbox, octree,
+};
 use kibiray::geom::{Aabb, Interval, Ray};
 use kibiray::memory::Arena;
 use kibiray::num::{Real, Vec3, Vector};
@@ -145,7 +147,8 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     let cells = |n, huge| {
         let cells = scene.shapes().count() * n;
         let resolution = grid::resolution_for(scene, huge, cells);
-        Kind::Grid(grid::Settings { resolution, huge, macro_cells: huge == Huge::Aside })
+        let macro_cells = huge == Huge::Aside;
+        Kind::Grid(grid::Settings { huge, macro_cells, ..resolution.into() })
     };
     let cubic = |n: u32| Kind::Grid([n; 3].into());
     let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (cubic(1), Off, UNLIMITED)];
@@ -170,6 +173,17 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         let mut benefit = settings(1, 9, Huge::Aside);
         benefit.growth.order = octree::Order::Benefit;
         setups.push((Kind::Octree(benefit), mailbox, budget));
+    }
+    for (cells, budget, mailbox) in
+        [(1, UNLIMITED, Off), (20, UNLIMITED, Off), (2, 16 << 10, Cache)]
+    {
+        let overlap = Overlap::Exact;
+        let resolution = grid::resolution_for(scene, Huge::Aside, cells * scene.shapes().count());
+        let exact = grid::Settings { huge: Huge::Aside, overlap, ..resolution.into() };
+        setups.push((Kind::Grid(exact), mailbox, UNLIMITED));
+        let mut exact = settings(1, 9, Huge::Aside);
+        exact.growth.overlap = overlap;
+        setups.push((Kind::Octree(exact), mailbox, budget));
     }
     for mailbox in [Off, Stamps, Cache] {
         for kind in [

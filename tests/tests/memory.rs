@@ -2,7 +2,7 @@
 //! right number of bytes; how much a build takes is known beforehand.
 
 use kibiray::accel::octree::AnyOctree;
-use kibiray::accel::{Accel, Any, BuildError, Hit, Huge, Kind, grid, mailbox, octree};
+use kibiray::accel::{Accel, Any, BuildError, Hit, Huge, Kind, Overlap, grid, mailbox, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::Real;
 use kibiray::plan::{Plan, Structure, Wishes, plan};
@@ -124,6 +124,12 @@ fn the_footprint_is_the_high_water_mark() {
             octree(1, 4),
             octree(8, 5),
             octree(100_000, 10),
+            Kind::Grid(grid::Settings { overlap: Overlap::Exact, ..[15; 3].into() }),
+            {
+                let limits = octree::Limits { max_objects: 3, max_level: 5 };
+                let growth = octree::Growth { overlap: Overlap::Exact, ..limits.into() };
+                Kind::Octree(octree::Settings { growth, ..limits.into() })
+            },
             Kind::Bvh(0),
             Kind::Bvh(70),
             Kind::Bvh(usize::MAX),

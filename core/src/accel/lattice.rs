@@ -57,6 +57,17 @@ impl<R: Real> Lattice<R> {
         (self.cell_of(bounds.lo), self.cell_of(bounds.hi))
     }
 
+    /// The box of some cells, padded as shapes' boxes are.
+    pub(crate) fn room(&self, first: [i32; 3], count: [i32; 3]) -> Aabb<R> {
+        let [cx, cy, cz] = &self.cells;
+        let corner = |[x, y, z]: [i32; 3]| {
+            self.bounds.lo + Vec3::<R>::new(cx.wall(x), cy.wall(y), cz.wall(z))
+        };
+        let ([x, y, z], [nx, ny, nz]) = (first, count);
+        let room = Aabb { lo: corner(first), hi: corner([x + nx, y + ny, z + nz]) };
+        room.grown(self.pad)
+    }
+
     /// A ray seen along each of the three axes.
     pub(crate) fn tracks(&self, ray: &Ray<R>, slopes: &Slopes<R>) -> [Track<R>; 3] {
         let ([nx, ny, nz], [cx, cy, cz]) = (self.count, &self.cells);

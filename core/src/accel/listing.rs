@@ -21,6 +21,17 @@ pub enum Huge {
     Aside,
 }
 
+/// When a shape is listed in a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Overlap {
+    /// When its box touches the cell.
+    #[default]
+    Box,
+    /// When its surface may pass through the cell: fewer entries, for some work while building.
+    /// Where that is told roughly, as around cylinders and cones, some are left that need not be.
+    Exact,
+}
+
 /// Shapes that are kept beside a structure, at most.
 pub const MOST_ASIDE: usize = 6;
 

@@ -168,6 +168,9 @@ macro_rules! float {
             fn index(&self, x: $f) -> i32 {
                 (x * self.per_unit) as i32
             }
+            fn wall(&self, i: i32) -> $f {
+                self.width * i as $f
+            }
         }
 
         impl Progress<$f> for FloatProgress<$f> {

@@ -21,6 +21,8 @@ pub trait Cells<R>: Copy + Debug + Default + Send + Sync {
     /// In which cell `x >= 0` lies, counted from its beginning; what lies below is in cell 0 or
     /// below, what lies beyond in the last or beyond.
     fn index(&self, x: R) -> i32;
+    /// How far from the beginning cell `i` begins, rounded; `i` from 0 to their number.
+    fn wall(&self, i: i32) -> R;
 }
 
 /// Parameters at which a ray meets walls at equal distances, each computed from its number and never

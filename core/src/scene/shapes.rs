@@ -44,6 +44,11 @@ pub trait Shapes<R: Real> {
         Region::Box(self.bounds(id))
     }
 
+    /// See [`Shape::overlaps`].
+    fn overlaps(&self, _id: usize, _cell: &Aabb<R>) -> bool {
+        true
+    }
+
     /// Prepares a ray.
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay;
 
@@ -118,6 +123,10 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
 
     fn region(&self, id: usize) -> Region<R> {
         self.get(id).map_or_else(|| Region::Box(Aabb::empty()), T::region)
+    }
+
+    fn overlaps(&self, id: usize, cell: &Aabb<R>) -> bool {
+        self.get(id).is_none_or(|shape| shape.overlaps(cell))
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> T::PerRay {
@@ -212,6 +221,13 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         match id.checked_sub(self.0.count()) {
             None => self.0.region(id),
             Some(id) => self.1.region(id),
+        }
+    }
+
+    fn overlaps(&self, id: usize, cell: &Aabb<R>) -> bool {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.overlaps(id, cell),
+            Some(id) => self.1.overlaps(id, cell),
         }
     }
 

@@ -42,6 +42,10 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
         self.triangles.region(id)
     }
 
+    fn overlaps(&self, id: usize, cell: &Aabb<R>) -> bool {
+        self.triangles.overlaps(id, cell)
+    }
+
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {
         self.triangles.per_ray(ray)
     }
@@ -126,6 +130,10 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
 
     fn region(&self, id: usize) -> Region<R> {
         self.chain().region(id)
+    }
+
+    fn overlaps(&self, id: usize, cell: &Aabb<R>) -> bool {
+        self.chain().overlaps(id, cell)
     }
 
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {

@@ -1,6 +1,7 @@
 //! What the solids around an axis share: their hull, and a ray as the axis sees it.
 
-use super::{Length, ShapeError, settle};
+use super::overlap::{Slab, round, settle_between};
+use super::{Length, ShapeError};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, Real, Vec3, Vector};
 
@@ -75,10 +76,23 @@ impl<R: Real> Hull<R> {
         }
     }
 
-    /// What [`settle`] makes of a crossing, without the three square roots of the box where the
-    /// crossing is plainly close to the solid, as almost all are.
+    /// What it lies between, besides its box.
+    fn slabs(&self) -> [Slab<R>; 5] {
+        round::<R>(self.base, self.axis, self.height, self.base_radius.max(self.apex_radius))
+    }
+
+    /// Whether it may reach into a cell.
+    pub(super) fn overlaps(&self, cell: &Aabb<R>) -> bool {
+        self.slabs().iter().all(|slab| slab.meets(cell))
+    }
+
+    /// What [`settle_between`] makes of a crossing, without its square roots where the crossing is
+    /// plainly close to the solid, as almost all are.
     fn settle(&self, ray: &Ray<R>, t: R) -> Option<R> {
-        if self.is_close(ray.at(t), ray.slack()) { Some(t) } else { settle(ray, self.bounds(), t) }
+        if self.is_close(ray.at(t), ray.slack()) {
+            return Some(t);
+        }
+        settle_between(ray, self.bounds(), self.slabs(), t)
     }
 
     /// Whether a point certainly lies within `slack` of the hull, and so in its box grown by that.

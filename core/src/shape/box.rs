@@ -2,6 +2,7 @@
 //!
 //! T. L. Kay and J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986; see [`Slopes::clip`].
 
+use super::overlap::box_surface;
 use super::{Shape, ShapeError};
 use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Axis, Real, Vec3, Vector};
@@ -48,6 +49,10 @@ impl<R: Real> Shape<R> for AxisBox<R> {
 
     fn bounds(&self) -> Aabb<R> {
         Aabb { lo: self.lo, hi: self.hi }
+    }
+
+    fn overlaps(&self, cell: &Aabb<R>) -> bool {
+        box_surface(&self.bounds(), cell)
     }
 
     fn hit(&self, _ray: &Ray<R>, slopes: &Slopes<R>, min: R, max: R) -> Option<R> {

@@ -106,6 +106,10 @@ impl<R: Real> Shape<R> for Cylinder<R> {
         self.hull().bounds()
     }
 
+    fn overlaps(&self, cell: &Aabb<R>) -> bool {
+        self.hull().overlaps(cell)
+    }
+
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
         let (frame, crossings) = self.crossings(ray, length)?;
         frame.select(crossings, ray, &self.hull(), (min, max))

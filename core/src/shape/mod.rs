@@ -7,7 +7,8 @@
 //! * The point at `t` lies in [`Shape::bounds`], or outside it by no more than [`Ray::slack`]. Space
 //!   is divided by padded boxes, so a structure that follows the ray from cell to cell cannot lose
 //!   what testing every shape would find. Where a kernel cannot promise this by itself (a triangle
-//!   seen edge-on has no well-defined `t`), it ends in `settle`.
+//!   seen edge-on has no well-defined `t`), it is held to it (`overlap`).
+//! * It lies in a box for which [`Shape::overlaps`] says yes, once that is padded by twice the slack.
 //! * A shape that passed [`Shape::check`] is never hit at a `t` that is not a number.
 
 mod axial;
@@ -16,6 +17,7 @@ mod cone;
 mod convex;
 pub mod csg;
 mod cylinder;
+mod overlap;
 mod plane;
 mod polygon;
 mod polyhedron;
@@ -49,8 +51,8 @@ pub enum ShapeError {
     /// A coordinate or a radius is infinite or not a number, or so great that products of it are.
     NotFinite,
     /// It has no surface, or one too small to compute with: a length is zero or the product of two
-    /// is, corners coincide or lie in a line. In `f32` that befalls radii and the sides of triangles
-    /// below 3e-23, and the sides of polygons below 5e-22.
+    /// is, corners coincide or lie in a line. In `f32` that befalls radii below 3e-23, and the sides
+    /// of triangles and polygons below 5e-22.
     Degenerate,
     /// A radius or an extent is negative.
     Negative,
@@ -103,6 +105,12 @@ pub trait Shape<R: Real> {
     /// What bounds are built around: its box, or something tighter in which all its hits lie.
     fn region(&self) -> Region<R> {
         Region::Box(self.bounds())
+    }
+
+    /// Whether its surface may pass through a cell that its box touches: no only where no hit can be
+    /// claimed. The cell is padded by twice the slack.
+    fn overlaps(&self, _cell: &Aabb<R>) -> bool {
+        true
     }
 
     /// The nearest crossing with `min < t <= max`.

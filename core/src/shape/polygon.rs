@@ -7,8 +7,9 @@
 //! exactly one of the polygons around it, and none passes between them. The normal is Newell's
 //! (I. Sutherland, R. Sproull, R. Schumacker, ACM Computing Surveys 6(1), 1974, appendix).
 
+use super::overlap::{Slab, settle_between};
 use super::triangle::edge;
-use super::{Shape, ShapeError, Shear, settle};
+use super::{Shape, ShapeError, Shear};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -56,6 +57,11 @@ impl<'a, R: Real> Polygon<'a, R> {
     /// The corners in order; the last is joined to the first.
     pub fn vertices(&self) -> &'a [R::Vec3] {
         self.vertices
+    }
+
+    /// Its plane.
+    fn plane(&self) -> Option<Slab<R>> {
+        Some(Slab::new(*self.vertices.first()?, self.normal, R::ZERO, R::ZERO))
     }
 
     /// Whether the line of the ray passes through it.
@@ -126,11 +132,17 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
         self.bounds
     }
 
+    fn overlaps(&self, cell: &Aabb<R>) -> bool {
+        self.plane().is_none_or(|plane| plane.meets(cell))
+    }
+
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
         let first = *self.vertices.first()?;
         let n = self.normal;
         let t = R::ratio(n.dot(first - ray.origin()), n.dot(ray.direction()));
-        let t = settle(ray, self.bounds, t)?;
+        // Seen edge-on, `t` says little.
+        let in_box = self.bounds.grown(ray.slack()).contains(ray.at(t));
+        let t = if in_box { t } else { settle_between(ray, self.bounds, self.plane(), t)? };
         // The outline comes last, because it is the longest.
         (t > min && t <= max && self.surrounds(shear)).then_some(t)
     }

@@ -5,6 +5,7 @@
 //! ray instead of from b² - ac, so that distant small spheres do not drown in cancellation; of the
 //! two solutions the one without cancellation is computed first and gives the other.
 
+use super::overlap::sphere_surface;
 use super::{Shape, ShapeError};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
@@ -65,6 +66,8 @@ impl<R: Real> Sphere<R> {
         let outer = if middle >= R::ZERO { middle + half } else { middle - half };
         // The product of both solutions is (|f|² - r²) / |d|².
         let inner = R::narrow(f.dot(f) - rr) * length.inverse_squared / outer;
+        // It is the smaller one, whatever rounding says of a ray that touches where it starts.
+        let inner = inner.clamp(-outer.abs(), outer.abs());
         Some(if inner <= outer { (inner, outer) } else { (outer, inner) })
     }
 }
@@ -92,6 +95,10 @@ impl<R: Real> Shape<R> for Sphere<R> {
     fn bounds(&self) -> Aabb<R> {
         let r = Vec3::<R>::splat(self.radius);
         Aabb { lo: (self.center - r).map(R::next_down), hi: (self.center + r).map(R::next_up) }
+    }
+
+    fn overlaps(&self, cell: &Aabb<R>) -> bool {
+        sphere_surface::<R>(self.center, self.radius, cell)
     }
 
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {

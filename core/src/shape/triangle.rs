@@ -7,6 +7,7 @@
 //! an edge function is 0; that serves to give an edge to one triangle only. Here both may claim it,
 //! and the order of shapes decides.
 
+use super::overlap::{flat, settle_between};
 use super::{Shape, ShapeError, settle};
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, FOURS, Real, Vec3, Vector};
@@ -31,11 +32,37 @@ impl<R: Real> Triangle<R> {
         (b - a).across(c - a)
     }
 
+    /// Whether products over parts of it, as a ray inside forms them, may vanish.
+    fn is_degenerate(&self) -> bool {
+        // Where products are exact they vanish together.
+        let part = if R::EXACT { R::ONE } else { R::fraction(1, 16) };
+        let [a, b, c] = self.corners;
+        ((b - a) * part).across((c - a) * part).is_zero()
+    }
+
     /// Where a ray that passes inside meets it. Apart from the test, which then stays small enough to
     /// be part of a loop.
+    ///
+    /// The mean of the corners lies on the triangle, whatever the weights. Where it lies on the ray
+    /// as well, that is where they meet; it does not when the ray sees the triangle so nearly edge-on
+    /// that the weights are mostly rounding.
     #[inline(never)]
     fn depth(&self, ray: &Ray<R>, weights: [R::Wide; 3], depths: [R; 3]) -> Option<R> {
-        settle(ray, Aabb::around(self.corners), R::mean(weights, depths))
+        let t = R::mean(weights, depths);
+        let [a, b, c] = self.corners;
+        if R::EXACT {
+            // So are the weights: the mean lies on the ray, unless `t` is out of range.
+            return settle(ray, self.bounds(), t);
+        }
+        let on_triangle = Vec3::<R>::new(
+            R::mean(weights, [a.x(), b.x(), c.x()]),
+            R::mean(weights, [a.y(), b.y(), c.y()]),
+            R::mean(weights, [a.z(), b.z(), c.z()]),
+        );
+        if (ray.at(t) - on_triangle).max_abs() <= ray.slack() {
+            return Some(t);
+        }
+        settle_between(ray, self.bounds(), flat::<R>(self.corners), t)
     }
 
     /// The weights of the corners at a hit, each from 0 to 1 and of sum 1: barycentric coordinates.
@@ -128,7 +155,7 @@ impl<R: Real> Shape<R> for Triangle<R> {
         let reach = bounds.max_abs();
         if !(self.corners.iter().all(|c| c.is_finite()) && R::is_workable(reach)) {
             Err(ShapeError::NotFinite)
-        } else if self.area_vector().is_zero() {
+        } else if self.is_degenerate() {
             Err(ShapeError::Degenerate)
         } else {
             Ok(())
@@ -137,6 +164,10 @@ impl<R: Real> Shape<R> for Triangle<R> {
 
     fn bounds(&self) -> Aabb<R> {
         Aabb::around(self.corners)
+    }
+
+    fn overlaps(&self, cell: &Aabb<R>) -> bool {
+        flat::<R>(self.corners).all(|slab| slab.meets(cell))
     }
 
     #[inline]
@@ -274,6 +305,7 @@ mod tests {
         assert_eq!(d(Vec3::ZERO, Vec3::X * 1e13, Vec3::X), Err(ShapeError::NotFinite));
         assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-30, Vec3::Y * 1e-30), Err(ShapeError::Degenerate));
         assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-24, Vec3::Y * 1e-24), Err(ShapeError::Degenerate));
-        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-22, Vec3::Y * 1e-22), Ok(()));
+        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-22, Vec3::Y * 1e-22), Err(ShapeError::Degenerate));
+        assert_eq!(d(Vec3::ZERO, Vec3::X * 1e-21, Vec3::Y * 1e-21), Ok(()));
     }
 }

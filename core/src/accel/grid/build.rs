@@ -3,7 +3,7 @@
 use super::{Grid, Settings, Size, distance, index};
 use crate::accel::lattice::{self, Lattice};
 use crate::accel::listing::Aside;
-use crate::accel::{BuildError, Huge, Id};
+use crate::accel::{BuildError, Huge, Id, Overlap};
 use crate::geom::Aabb;
 use crate::memory::Arena;
 use crate::num::{Real, Vector};
@@ -28,22 +28,30 @@ fn listed<R: Real, S: Shapes<R>, I: Id>(
 }
 
 /// Counts the cells and list entries that a resolution gives. Time in proportion to the number of
-/// shapes; no memory.
+/// shapes, or with [`Overlap::Exact`] to that of the cells that their boxes touch; no memory.
 pub fn size<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, settings: impl Into<Settings>) -> Size {
-    let Settings { resolution, huge, .. } = settings.into();
+    let Settings { resolution, huge, overlap, .. } = settings.into();
     let (root, aside) = room::<_, _, u32>(scene, huge);
-    size_of_room(scene, &Lattice::new(root, resolution, scene.pad()), &aside)
+    size_of_room(scene, &Lattice::new(root, resolution, scene.pad()), &aside, overlap)
 }
 
 fn size_of_room<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     lattice: &Lattice<R>,
     aside: &Aside<impl Id>,
+    overlap: Overlap,
 ) -> Size {
     let product = |n: [i32; 3]| n.iter().fold(1_usize, |p, n| p.saturating_mul(*n as usize));
     let references = listed(scene, aside).fold(0_usize, |sum, id| {
         let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes().bounds(id));
-        sum.saturating_add(product([x1 - x0 + 1, y1 - y0 + 1, z1 - z0 + 1]))
+        sum.saturating_add(match overlap {
+            Overlap::Box => product([x1 - x0 + 1, y1 - y0 + 1, z1 - z0 + 1]),
+            Overlap::Exact => {
+                let mut cells = 0_usize;
+                for_cells(lattice, scene, overlap, id, |_| cells += 1);
+                cells
+            }
+        })
     });
     Size { cells: product(lattice.count()), references }
 }
@@ -83,19 +91,19 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
         settings: impl Into<Settings>,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
-        let Settings { resolution, huge, macro_cells } = settings.into();
+        let Settings { resolution, huge, overlap, macro_cells } = settings.into();
         let (root, aside) = room::<_, _, I>(scene, huge);
         let lattice = Lattice::new(root, resolution, scene.pad());
         let shapes = scene.shapes().bounded();
         BuildError::unless_fits::<I>("shapes", shapes.saturating_sub(1))?;
-        let size = size_of_room(scene, &lattice, &aside);
+        let size = size_of_room(scene, &lattice, &aside, overlap);
         BuildError::unless_above("references", size.references, distance::most_offset::<O>())?;
         arena.require(size.footprint::<I, O>())?;
         let slots: &mut [O] = arena.keep("grid cells", size.cells.saturating_add(1))?;
         let references: &mut [I] = arena.keep("grid references", size.references)?;
         slots.fill(O::new(0));
         for id in listed(scene, &aside) {
-            for_cells(&lattice, scene, id, |cell| {
+            for_cells(&lattice, scene, overlap, id, |cell| {
                 if let Some(count) = slots.get_mut(cell) {
                     *count = O::new(count.get() + 1);
                 }
@@ -109,7 +117,7 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
         // Every offset is now the end of its list and moves to its beginning while the list is
         // filled from behind.
         for id in listed(scene, &aside).rev() {
-            for_cells(&lattice, scene, id, |cell| {
+            for_cells(&lattice, scene, overlap, id, |cell| {
                 if let Some(slot) = slots.get_mut(cell) {
                     let place = slot.get().saturating_sub(1);
                     *slot = O::new(place);
@@ -126,10 +134,11 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
     }
 }
 
-/// Calls `f` with the number of every cell that a shape touches.
+/// Calls `f` with the number of every cell that lists a shape.
 fn for_cells<R: Real, S: Shapes<R>>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
+    overlap: Overlap,
     id: usize,
     mut f: impl FnMut(usize),
 ) {
@@ -137,7 +146,10 @@ fn for_cells<R: Real, S: Shapes<R>>(
     for z in z0..=z1 {
         for y in y0..=y1 {
             for x in x0..=x1 {
-                f(index(lattice.count(), x, y, z));
+                let cell = || lattice.room([x, y, z], [1; 3]);
+                if overlap == Overlap::Box || scene.shapes().overlaps(id, &cell()) {
+                    f(index(lattice.count(), x, y, z));
+                }
             }
         }
     }

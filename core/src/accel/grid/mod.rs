@@ -16,7 +16,7 @@ pub use build::{resolution_for, size};
 
 use super::lattice::Lattice;
 use super::listing::Aside;
-use super::{Huge, Id};
+use super::{Huge, Id, Overlap};
 use crate::memory::Footprint;
 use crate::num::Real;
 use distance::Slot;
@@ -39,6 +39,8 @@ pub struct Settings {
     pub resolution: [u32; 3],
     /// What is done with shapes much larger than the others.
     pub huge: Huge,
+    /// When a shape is listed in a cell.
+    pub overlap: Overlap,
     /// Whether empty cells know how far it is to the next that is not: takes no memory, but time
     /// while building.
     pub macro_cells: bool,
@@ -46,7 +48,8 @@ pub struct Settings {
 
 impl From<[u32; 3]> for Settings {
     fn from(resolution: [u32; 3]) -> Self {
-        Self { resolution, huge: Huge::Inside, macro_cells: false }
+        let (huge, overlap) = (Huge::Inside, Overlap::Box);
+        Self { resolution, huge, overlap, macro_cells: false }
     }
 }
 

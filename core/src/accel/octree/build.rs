@@ -11,7 +11,7 @@ use super::footprint::bytes;
 use super::storage::{Content, Storage, most};
 use super::{Octree, list_at};
 use crate::accel::lattice::{self, Lattice};
-use crate::accel::listing::{Aside, Huge};
+use crate::accel::listing::{Aside, Huge, Overlap};
 use crate::accel::{BuildError, Id};
 use crate::memory::{Arena, Ends, Footprint};
 use crate::num::Real;
@@ -33,6 +33,8 @@ pub struct Growth {
     pub limits: Limits,
     /// What is done with shapes much larger than the others.
     pub huge: Huge,
+    /// When a shape is listed in a cell.
+    pub overlap: Overlap,
     /// Which cells are divided first.
     pub order: Order,
 }
@@ -51,7 +53,7 @@ pub enum Order {
 
 impl From<Limits> for Growth {
     fn from(limits: Limits) -> Self {
-        Self { limits, huge: Huge::Inside, order: Order::Breadth }
+        Self { limits, huge: Huge::Inside, overlap: Overlap::Box, order: Order::Breadth }
     }
 }
 
@@ -85,10 +87,11 @@ pub(super) fn room<R: Real, S: Shapes<R>, I: Id>(
     Ok((Lattice::new(root, [1 << deepest; 3], scene.pad()), aside))
 }
 
-/// Which children of a cell a shape touches, as bits 0 to 7; 0 when it does not touch the cell.
+/// Which children of a cell list a shape, as bits 0 to 7; 0 when the cell itself does not.
 pub(super) fn touches<R: Real, S: Shapes<R>>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
+    overlap: Overlap,
     id: usize,
     base: [i32; 3],
     edge: i32,
@@ -109,9 +112,35 @@ pub(super) fn touches<R: Real, S: Shapes<R>>(
     let spread = |halves: u32, lower: u32, upper: u32| {
         (if halves & 1 != 0 { lower } else { 0 }) | (if halves & 2 != 0 { upper } else { 0 })
     };
-    spread(x, 0b0101_0101, 0b1010_1010)
+    let touched = spread(x, 0b0101_0101, 0b1010_1010)
         & spread(y, 0b0011_0011, 0b1100_1100)
-        & spread(z, 0b0000_1111, 0b1111_0000)
+        & spread(z, 0b0000_1111, 0b1111_0000);
+    if overlap == Overlap::Box {
+        return touched;
+    }
+    let [x, y, z] = base;
+    let lists = |octant: u32| {
+        let corner = |base: i32, bit: u32| base + (octant >> bit & 1) as i32 * half;
+        let room = lattice.room([corner(x, 0), corner(y, 1), corner(z, 2)], [half.max(1); 3]);
+        touched >> octant & 1 != 0 && scene.shapes().overlaps(id, &room)
+    };
+    (0..8).filter(|octant| lists(*octant)).fold(0, |lists, octant| lists | 1 << octant)
+}
+
+/// Whether a cell lists a shape: the root lists all.
+pub(super) fn is_listed<R: Real, S: Shapes<R>>(
+    lattice: &Lattice<R>,
+    scene: &Scene<'_, R, S>,
+    overlap: Overlap,
+    id: usize,
+    base: [i32; 3],
+    edge: i32,
+) -> bool {
+    let [all, _, _] = lattice.count();
+    touches(lattice, scene, Overlap::Box, id, base, edge) != 0
+        && (overlap == Overlap::Box
+            || edge == all
+            || scene.shapes().overlaps(id, &lattice.room(base, [edge; 3])))
 }
 
 impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
@@ -152,7 +181,9 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
 
         let ends = arena.scratch::<C::Block, I>();
         let (root, max_level) = (Content::List(0), 0);
-        let mut growing = Growing::<R, S, I, C> { lattice, scene, limits, root, max_level, ends };
+        let overlap = growth.overlap;
+        let mut growing =
+            Growing::<R, S, I, C> { lattice, scene, overlap, limits, root, max_level, ends };
         growing.plant(shapes, &aside);
         let grown = match growth.order {
             Order::Breadth => growing.grow(),
@@ -182,6 +213,7 @@ pub(super) enum Refusal {
 pub(super) struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
     lattice: Lattice<R>,
     scene: &'g Scene<'s, R, S>,
+    overlap: Overlap,
     pub(super) limits: Limits,
     root: Content,
     /// Level of the deepest leaf.
@@ -279,11 +311,11 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
     /// How many shapes of a list each child of a cell would list.
     pub(super) fn counts(&mut self, cursor: &Cursor, place: usize) -> [usize; 8] {
         let (base, edge) = cursor.code().place(self.limits.max_level);
-        let (lattice, scene) = (self.lattice, self.scene);
+        let (lattice, scene, overlap) = (self.lattice, self.scene, self.overlap);
         let mut counts = [0_usize; 8];
         let (_, lists) = self.ends.both();
         for id in list_at(lists, place) {
-            let octants = touches(&lattice, scene, id.get(), base, edge);
+            let octants = touches(&lattice, scene, overlap, id.get(), base, edge);
             for (octant, count) in counts.iter_mut().enumerate() {
                 *count += (octants >> octant & 1) as usize;
             }
@@ -296,8 +328,8 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S,
         let slot = cursor.slot();
         let Some(Content::List(place)) = self.content(slot) else { return Ok(()) };
         let (base, edge) = cursor.code().place(self.limits.max_level);
-        let (lattice, scene) = (self.lattice, self.scene);
-        let octants = |id: &I| touches(&lattice, scene, id.get(), base, edge);
+        let (lattice, scene, overlap) = (self.lattice, self.scene, self.overlap);
+        let octants = |id: &I| touches(&lattice, scene, overlap, id.get(), base, edge);
 
         let counts = self.counts(cursor, place);
         let entries: usize = counts.iter().map(|count| count + usize::from(*count > 0)).sum();

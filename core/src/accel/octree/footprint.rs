@@ -1,7 +1,7 @@
 //! How many bytes an octree takes, counted without memory.
 
 use super::Octree;
-use super::build::{Growth, Order, room, touches};
+use super::build::{Growth, Order, is_listed, room};
 use super::code::{Code, DEEPEST};
 use super::storage::{Storage, most};
 use crate::accel::{BuildError, Id};
@@ -47,7 +47,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         while let Some(code) = next {
             let (base, edge) = code.place(deepest);
             let shapes = (0..scene.shapes().bounded()).filter(|id| !aside.contains(*id));
-            let inside = |id: &usize| touches(&lattice, scene, *id, base, edge) != 0;
+            let inside = |id: &usize| is_listed(&lattice, scene, growth.overlap, *id, base, edge);
             let count = shapes.filter(inside).count();
             let entries = count + usize::from(count > 0);
             let divide = count > limits.max_objects && code.level() < deepest;

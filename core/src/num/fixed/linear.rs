@@ -66,6 +66,11 @@ impl num::Cells<Fixed> for Cells {
             >> (self.extent.shift + DIGITS).saturating_sub(31);
         ((part.clamp(-(1 << 32), 1 << 32) * i64::from(self.count)) >> 31) as i32
     }
+
+    fn wall(&self, i: i32) -> Fixed {
+        // Cells of an extent that has a number end where it ends.
+        Fixed::from_bits((self.width.wrapping_mul(i.into()) >> DIGITS) as i32)
+    }
 }
 
 /// Parameters at which a ray meets walls at equal distances: those of the first and between two,
