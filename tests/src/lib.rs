@@ -1,5 +1,7 @@
 //! Helpers shared by the test programs of kibiray.
 
+pub mod oracle;
+
 use kibiray::accel::{
     Accel, Any, BuildError, Hit, Huge, Kind, Overlap, bvh, grid, mailbox, octree,
 };
