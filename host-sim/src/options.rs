@@ -291,8 +291,16 @@ pub enum AccelKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[allow(missing_docs)]
 pub enum BoundKind {
-    #[value(help = "axis-aligned boxes")]
+    Sphere,
+    #[value(help = "axis-aligned")]
     Box,
+    #[value(help = "oriented")]
+    Obox,
+    #[value(help = "the box under its other name")]
+    Kdop6,
+    Kdop14,
+    Kdop18,
+    Kdop26,
 }
 
 /// `--builder`.
@@ -301,6 +309,10 @@ pub enum BoundKind {
 pub enum BuilderKind {
     #[value(help = "shape by shape, as Goldsmith and Salmon (1987)")]
     Gs,
+    #[value(help = "shape by shape, as Guttman (1984)")]
+    Rtree,
+    #[value(help = "from the root down, where the surfaces tell to")]
+    Sah,
 }
 
 /// `--insertion`.

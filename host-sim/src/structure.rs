@@ -42,7 +42,12 @@ impl<'m, R: Real> Structure<'m, R> {
 /// The kind of bounds that options ask for.
 pub fn bound(options: &Common) -> tree::Kind {
     match options.bound.unwrap_or(BoundKind::Box) {
-        BoundKind::Box => tree::Kind::Box,
+        BoundKind::Sphere => tree::Kind::Sphere,
+        BoundKind::Box | BoundKind::Kdop6 => tree::Kind::Box,
+        BoundKind::Obox => tree::Kind::Oriented,
+        BoundKind::Kdop14 => tree::Kind::KDop14,
+        BoundKind::Kdop18 => tree::Kind::KDop18,
+        BoundKind::Kdop26 => tree::Kind::KDop26,
     }
 }
 
@@ -55,6 +60,8 @@ pub fn tree_settings(options: &Common) -> tree::Settings {
     };
     let builder = match options.builder.unwrap_or(BuilderKind::Gs) {
         BuilderKind::Gs => tree::Builder::GoldsmithSalmon(insertion),
+        BuilderKind::Rtree => tree::Builder::RTree(insertion),
+        BuilderKind::Sah => tree::Builder::Sah,
     };
     let walk = match options.walk {
         Some(Walk::Heap) => tree::Walk::Heap,

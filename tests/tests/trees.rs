@@ -20,12 +20,13 @@ fn settings() -> Vec<Settings> {
         (gs(Insertion::File), Walk::Heap),
         (gs(Insertion::Shuffled(3)), Walk::Ordered),
         (gs(Insertion::Curve), Walk::Stored),
+        (Builder::RTree(Insertion::Shuffled(0)), Walk::Ordered),
+        (Builder::RTree(Insertion::File), Walk::Heap),
+        (Builder::Sah, Walk::Ordered),
     ]
     .map(|(builder, walk)| Settings { builder, walk })
     .into()
 }
-
-const KINDS: [Kind; 1] = [Kind::Box];
 
 /// What a structure answers to some rays.
 fn answers<R: Real, S: Shapes<R>>(
@@ -41,6 +42,9 @@ fn answers<R: Real, S: Shapes<R>>(
     shots.iter().map(answer).collect()
 }
 
+/// Every tree is asked for one ray in so many: with 36 trees every ray is put to three.
+const EACH: usize = 12;
+
 /// Compares all trees with testing all shapes; gives the number of hits.
 fn compare<R: Real, S: Shapes<R>>(
     what: &str,
@@ -49,21 +53,21 @@ fn compare<R: Real, S: Shapes<R>>(
     memory: &mut Memory,
 ) -> usize {
     let expected = naive_answers(scene, shots);
-    for kind in KINDS {
-        for settings in settings() {
-            let footprint = AnyTree::<R>::footprint(kind, scene.shapes().bounded(), settings);
-            let mut arena = Arena::new(memory.bytes(footprint.peak));
-            let tree = AnyTree::build(kind, scene, settings, &mut arena).unwrap();
-            assert_eq!(arena.high_water(), footprint.peak, "{what} {kind:?} {settings:?}");
-            assert_eq!(arena.used(), footprint.kept, "{what} {kind:?} {settings:?}");
-            let found = answers(&tree, scene, shots);
-            for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                assert_eq!(
-                    found, expected,
-                    "{what} {kind:?} {settings:?}, ray {i}: {:?}",
-                    shots[i]
-                );
-            }
+    let settings = settings();
+    let all = Kind::ALL.iter().flat_map(|kind| settings.iter().map(|settings| (*kind, *settings)));
+    for (number, (kind, settings)) in all.enumerate() {
+        let footprint = AnyTree::<R>::footprint(kind, scene.shapes().bounded(), settings);
+        let mut arena = Arena::new(memory.bytes(footprint.peak));
+        let tree = AnyTree::build(kind, scene, settings, &mut arena).unwrap();
+        assert_eq!(arena.high_water(), footprint.peak, "{what} {kind:?} {settings:?}");
+        assert_eq!(arena.used(), footprint.kept, "{what} {kind:?} {settings:?}");
+        // Every tree sees another part of the rays, of all sorts.
+        let part = |all: usize| (number % EACH..all).step_by(EACH);
+        let own: Vec<_> = part(shots.len()).map(|i| shots[i]).collect();
+        let found = answers(&tree, scene, &own);
+        for (found, i) in found.iter().zip(part(shots.len())) {
+            let shot = &shots[i];
+            assert_eq!(*found, expected[i], "{what} {kind:?} {settings:?}, ray {i}: {shot:?}");
         }
     }
     expected.iter().filter(|(hit, _)| hit.is_some()).count()
@@ -97,7 +101,7 @@ fn conform<R: Real>(number: &str, rays_per_scene: usize) {
 
 /// Rays a scene: as many as there is time for, or what `KIBIRAY_RAYS` says.
 fn rays_per_scene() -> usize {
-    std::env::var("KIBIRAY_RAYS").ok().and_then(|n| n.parse().ok()).unwrap_or(10_000)
+    std::env::var("KIBIRAY_RAYS").ok().and_then(|n| n.parse().ok()).unwrap_or(35_000)
 }
 
 #[test]

@@ -5,20 +5,12 @@
 //! greatest coordinate; the parameter at which a ray meets a side is the product of a difference of
 //! at most six such coordinates, rounded, with a rounded reciprocal: 5 units.
 
-use super::{Bound, Region, Stored, shrunk};
+use super::{Bound, Fitted, Region, Stored, shrunk};
 use crate::geom::{Aabb, Ray, Slopes};
 use crate::num::{Real, Vec3, Vector};
 
 impl<R: Real> Bound<R> for Aabb<R> {
     type PerRay = Slopes<R>;
-
-    fn around(region: &Region<R>, pad: R) -> Self {
-        region.bounds().grown(pad)
-    }
-
-    fn union(self, other: Self) -> Self {
-        Self::union(self, other)
-    }
 
     fn half_area(&self) -> R {
         let size = self.size();
@@ -37,6 +29,16 @@ impl<R: Real> Bound<R> for Aabb<R> {
     #[inline]
     fn enter(&self, slopes: &Slopes<R>, start: R, limit: R) -> Option<R> {
         slopes.clip(self.lo, self.hi, start, limit).map(|(enter, _)| enter)
+    }
+}
+
+impl<R: Real> Fitted<R> for Aabb<R> {
+    fn around(region: &Region<R>, pad: R) -> Self {
+        region.bounds().grown(pad)
+    }
+
+    fn union(self, other: Self) -> Self {
+        Self::union(self, other)
     }
 }
 

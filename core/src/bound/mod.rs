@@ -17,8 +17,15 @@
 //!   side that is not a number, which no checked shape gives, is hit by nothing.
 
 mod aabb;
+mod kdop;
+mod oriented;
+mod pair;
 mod region;
+mod sphere;
 
+pub use kdop::{KDop, Lines};
+pub use oriented::OrientedBox;
+pub use pair::{Intersection, Union};
 pub use region::Region;
 
 use crate::geom::Ray;
@@ -29,13 +36,6 @@ use bytemuck::Pod;
 pub trait Bound<R: Real>: Copy + core::fmt::Debug {
     /// What bounds of this kind want to know of a ray, computed once a ray.
     type PerRay: Copy;
-
-    /// Around a shape; `pad` is that of its scene.
-    fn around(region: &Region<R>, pad: R) -> Self;
-
-    /// Around two of its kind.
-    #[must_use]
-    fn union(self, other: Self) -> Self;
 
     /// Half the area of its surface, in units of its own kind: what the probability of a hit is in
     /// proportion to (Cauchy). For decisions only, never for the answer.
@@ -52,8 +52,18 @@ pub trait Bound<R: Real>: Copy + core::fmt::Debug {
     fn enter(&self, ray: &Self::PerRay, start: R, limit: R) -> Option<R>;
 }
 
+/// A bound that can be built around any shape and around others of its kind.
+pub trait Fitted<R: Real>: Bound<R> {
+    /// Around a shape; `pad` is that of its scene.
+    fn around(region: &Region<R>, pad: R) -> Self;
+
+    /// Around two of its kind.
+    #[must_use]
+    fn union(self, other: Self) -> Self;
+}
+
 /// A bound as it is laid into memory.
-pub trait Stored<R: Real>: Bound<R> {
+pub trait Stored<R: Real>: Fitted<R> {
     /// Its numbers.
     type Plain: Pod + core::fmt::Debug;
 

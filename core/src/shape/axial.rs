@@ -2,6 +2,7 @@
 
 use super::overlap::{Slab, round, settle_between};
 use super::{Length, ShapeError};
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, Real, Vec3, Vector};
 
@@ -42,6 +43,13 @@ impl<R: Real> Hull<R> {
         let all = Aabb::around([base - b, base + b, apex - a, apex + a]);
         let all = all.grown(R::ulps_at(2, height + base_radius.max(apex_radius)));
         Aabb { lo: all.lo.map(R::next_down), hi: all.hi.map(R::next_up) }
+    }
+
+    /// Where it may be hit.
+    pub(super) fn region(&self) -> Region<R> {
+        let Self { base, axis, height, base_radius, apex_radius, .. } = *self;
+        let radii = [base_radius, apex_radius];
+        Region::Discs { bounds: self.bounds(), base, axis, height, radii }
     }
 
     /// What is wrong with it; `radii` together decide whether there is a surface.

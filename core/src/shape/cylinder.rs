@@ -8,6 +8,7 @@
 
 use super::axial::{Frame, Hull, Part, Passage, axis_between};
 use super::{Length, Shape, ShapeError};
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -108,6 +109,10 @@ impl<R: Real> Shape<R> for Cylinder<R> {
 
     fn overlaps(&self, cell: &Aabb<R>) -> bool {
         self.hull().overlaps(cell)
+    }
+
+    fn region(&self) -> Region<R> {
+        self.hull().region()
     }
 
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {

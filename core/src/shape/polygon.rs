@@ -10,6 +10,7 @@
 use super::overlap::{Slab, settle_between};
 use super::triangle::edge;
 use super::{Shape, ShapeError, Shear};
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -134,6 +135,10 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
 
     fn overlaps(&self, cell: &Aabb<R>) -> bool {
         self.plane().is_none_or(|plane| plane.meets(cell))
+    }
+
+    fn region(&self) -> Region<R> {
+        Region::flat(newell::<R>(self.vertices, 0), self.vertices.iter().copied())
     }
 
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {

@@ -7,6 +7,7 @@
 
 use super::overlap::sphere_surface;
 use super::{Shape, ShapeError};
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
@@ -45,6 +46,21 @@ impl<R: Real> Length<R> {
 }
 
 impl<R: Real> Sphere<R> {
+    /// Middle less and plus half the chord: not quite the crossings, and never wild.
+    #[inline]
+    pub(crate) fn chord(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
+        let f = self.center - ray.origin();
+        let d = ray.direction();
+        let middle = R::narrow(f.dot(d)) * length.inverse_squared;
+        let across = f - d * middle;
+        let discriminant = self.radius.times(self.radius) - across.dot(across);
+        if !(discriminant >= R::Wide::default()) {
+            return None;
+        }
+        let half = R::sqrt_wide(discriminant) * length.inverse;
+        Some((middle - half, middle + half))
+    }
+
     /// Both crossings, the smaller first.
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
         let f = self.center - ray.origin();
@@ -99,6 +115,10 @@ impl<R: Real> Shape<R> for Sphere<R> {
 
     fn overlaps(&self, cell: &Aabb<R>) -> bool {
         sphere_surface::<R>(self.center, self.radius, cell)
+    }
+
+    fn region(&self) -> Region<R> {
+        Region::Ball { center: self.center, radius: self.radius }
     }
 
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {

@@ -9,6 +9,7 @@
 
 use super::overlap::{flat, settle_between};
 use super::{Shape, ShapeError, settle};
+use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, FOURS, Real, Vec3, Vector};
 
@@ -168,6 +169,10 @@ impl<R: Real> Shape<R> for Triangle<R> {
 
     fn overlaps(&self, cell: &Aabb<R>) -> bool {
         flat::<R>(self.corners).all(|slab| slab.meets(cell))
+    }
+
+    fn region(&self) -> Region<R> {
+        Region::flat(self.area_vector(), self.corners)
     }
 
     #[inline]

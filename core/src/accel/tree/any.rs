@@ -3,11 +3,12 @@
 use super::links::Links;
 use super::{Cost, Settings, Tree, footprint};
 use crate::accel::{Accel, BuildError, Visitor};
-use crate::bound::Stored;
+use crate::bound::{KDop, OrientedBox, Stored};
 use crate::geom::{Aabb, Ray};
 use crate::memory::{Arena, Footprint};
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
+use crate::shape::Sphere;
 
 /// The kinds of bounds that a tree can consist of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,6 +16,22 @@ pub enum Kind {
     /// [`Aabb`].
     #[default]
     Box,
+    /// [`Sphere`].
+    Sphere,
+    /// [`OrientedBox`].
+    Oriented,
+    /// [`KDop`] of 14 planes.
+    KDop14,
+    /// Of 18 planes.
+    KDop18,
+    /// Of 26 planes.
+    KDop26,
+}
+
+impl Kind {
+    /// All of them. A k-dop of 6 planes is the box.
+    pub const ALL: [Self; 6] =
+        [Self::Box, Self::Sphere, Self::Oriented, Self::KDop14, Self::KDop18, Self::KDop26];
 }
 
 /// A tree with the smallest numbers that suffice.
@@ -79,6 +96,16 @@ fn is_small(shapes: usize) -> bool {
 pub enum AnyTree<'m, R: Real> {
     /// Of boxes.
     Box(Widths<'m, R, Aabb<R>>),
+    /// Of spheres.
+    Sphere(Widths<'m, R, Sphere<R>>),
+    /// Of oriented boxes.
+    Oriented(Widths<'m, R, OrientedBox<R>>),
+    /// Of k-dops of 14 planes.
+    KDop14(Widths<'m, R, KDop<R, 7>>),
+    /// Of k-dops of 18 planes.
+    KDop18(Widths<'m, R, KDop<R, 9>>),
+    /// Of k-dops of 26 planes.
+    KDop26(Widths<'m, R, KDop<R, 13>>),
 }
 
 /// What a tree has come to.
@@ -107,6 +134,11 @@ impl<'m, R: Real> AnyTree<'m, R> {
     ) -> Result<Self, BuildError> {
         Ok(match kind {
             Kind::Box => Self::Box(Widths::build(scene, settings, arena)?),
+            Kind::Sphere => Self::Sphere(Widths::build(scene, settings, arena)?),
+            Kind::Oriented => Self::Oriented(Widths::build(scene, settings, arena)?),
+            Kind::KDop14 => Self::KDop14(Widths::build(scene, settings, arena)?),
+            Kind::KDop18 => Self::KDop18(Widths::build(scene, settings, arena)?),
+            Kind::KDop26 => Self::KDop26(Widths::build(scene, settings, arena)?),
         })
     }
 
@@ -114,6 +146,11 @@ impl<'m, R: Real> AnyTree<'m, R> {
     pub fn footprint(kind: Kind, shapes: usize, settings: Settings) -> Footprint {
         match kind {
             Kind::Box => Widths::<R, Aabb<R>>::footprint(shapes, settings),
+            Kind::Sphere => Widths::<R, Sphere<R>>::footprint(shapes, settings),
+            Kind::Oriented => Widths::<R, OrientedBox<R>>::footprint(shapes, settings),
+            Kind::KDop14 => Widths::<R, KDop<R, 7>>::footprint(shapes, settings),
+            Kind::KDop18 => Widths::<R, KDop<R, 9>>::footprint(shapes, settings),
+            Kind::KDop26 => Widths::<R, KDop<R, 13>>::footprint(shapes, settings),
         }
     }
 
@@ -121,6 +158,11 @@ impl<'m, R: Real> AnyTree<'m, R> {
     pub fn refit<S: Shapes<R>>(&mut self, scene: &Scene<'_, R, S>) {
         match self {
             Self::Box(tree) => tree.refit(scene),
+            Self::Sphere(tree) => tree.refit(scene),
+            Self::Oriented(tree) => tree.refit(scene),
+            Self::KDop14(tree) => tree.refit(scene),
+            Self::KDop18(tree) => tree.refit(scene),
+            Self::KDop26(tree) => tree.refit(scene),
         }
     }
 
@@ -128,6 +170,11 @@ impl<'m, R: Real> AnyTree<'m, R> {
     pub fn summary(&self) -> Summary<R> {
         match self {
             Self::Box(tree) => tree.summary(),
+            Self::Sphere(tree) => tree.summary(),
+            Self::Oriented(tree) => tree.summary(),
+            Self::KDop14(tree) => tree.summary(),
+            Self::KDop18(tree) => tree.summary(),
+            Self::KDop26(tree) => tree.summary(),
         }
     }
 }
@@ -136,6 +183,11 @@ impl<R: Real> Accel<R> for AnyTree<'_, R> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         match self {
             Self::Box(tree) => tree.walk(ray, visitor),
+            Self::Sphere(tree) => tree.walk(ray, visitor),
+            Self::Oriented(tree) => tree.walk(ray, visitor),
+            Self::KDop14(tree) => tree.walk(ray, visitor),
+            Self::KDop18(tree) => tree.walk(ray, visitor),
+            Self::KDop26(tree) => tree.walk(ray, visitor),
         }
     }
 }

@@ -113,6 +113,22 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
         Ok(())
     }
 
+    /// Inserts a shape of a scene into a tree of which all shapes were inserted so: with
+    /// [`Builder::RTree`](super::Builder::RTree). Otherwise as [`Tree::insert`].
+    ///
+    /// # Errors
+    /// [`InsertError`]; the tree stays as it is.
+    pub fn insert_in_r_tree<S: Shapes<R>>(
+        &mut self,
+        scene: &Scene<'_, R, S>,
+        id: usize,
+    ) -> Result<(), InsertError> {
+        let leaf = self.add_leaf(scene, id)?;
+        self.place_in_r_tree(leaf);
+        self.links.count_leaf();
+        Ok(())
+    }
+
     /// Makes the leaf of a shape, without a place in the tree.
     pub(super) fn add_leaf<S: Shapes<R>>(
         &mut self,
@@ -179,7 +195,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
     }
 
     /// Makes a node and all above it contain a bound.
-    fn enlarge(&mut self, node: Option<usize>, new: B) {
+    pub(super) fn enlarge(&mut self, node: Option<usize>, new: B) {
         let mut node = node;
         for _ in 0..self.links.end() {
             let Some(at) = node else { return };

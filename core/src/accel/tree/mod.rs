@@ -26,6 +26,8 @@ mod insert;
 mod links;
 mod order;
 mod refit;
+mod rtree;
+mod sah;
 mod size;
 mod walk;
 
@@ -48,6 +50,11 @@ pub enum Builder {
     /// Shape by shape, each where it adds least to the cost of the tree: J. Goldsmith, J. Salmon,
     /// "Automatic creation of object hierarchies for ray tracing", IEEE CG&A 7(5) (1987).
     GoldsmithSalmon(Insertion),
+    /// Shape by shape, all leaves on one level: A. Guttman, "R-trees: a dynamic index structure for
+    /// spatial searching", SIGMOD 1984.
+    RTree(Insertion),
+    /// All at once, cut in two where the surfaces tell to. Takes scratch for a list of the shapes.
+    Sah,
 }
 
 impl Default for Builder {
@@ -105,12 +112,18 @@ impl<'m, R: Real, B: Stored<R>, I: Id> Tree<'m, R, B, I> {
         arena.require(footprint::<R, B, I>(shapes, settings.builder))?;
         let mut tree = Self::empty(shapes, settings.walk, arena)?;
         match settings.builder {
+            // Inserting cannot fail: there is a leaf for every shape, and each comes once.
             Builder::GoldsmithSalmon(insertion) => {
                 order::each::<R, S, I>(scene, insertion, arena, |id| {
-                    // Cannot fail: there is a leaf for every shape, and each comes once.
                     let _ = tree.insert(scene, id);
                 })?;
             }
+            Builder::RTree(insertion) => {
+                order::each::<R, S, I>(scene, insertion, arena, |id| {
+                    let _ = tree.insert_in_r_tree(scene, id);
+                })?;
+            }
+            Builder::Sah => tree.divide_all(scene, arena)?,
         }
         Ok(tree)
     }

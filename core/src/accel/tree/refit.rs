@@ -14,14 +14,20 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
     /// A shape that the scene has no more is hit no more, and stays in the tree.
     pub fn refit<S: Shapes<R>>(&mut self, scene: &Scene<'_, R, S>) {
         self.pad = scene.pad();
+        for leaf in 0..self.links.capacity() {
+            if self.links.contains(leaf) {
+                self.set_volume(leaf, B::around(&scene.shapes().region(leaf), self.pad));
+            }
+        }
+        self.fit_all();
+    }
+
+    /// Computes the bounds of all nodes anew that are no leaves.
+    pub(super) fn fit_all(&mut self) {
         let mut next = self.links.first_up();
         for _ in 0..self.links.end() {
             let Some(node) = next else { return };
-            if self.links.is_leaf(node) {
-                self.set_volume(node, B::around(&scene.shapes().region(node), self.pad));
-            } else {
-                self.fit(node);
-            }
+            self.fit(node);
             next = self.links.after_up(node);
         }
     }

@@ -16,8 +16,10 @@ pub fn footprint<R: Real, B: Stored<R>, I: Id>(shapes: usize, builder: Builder) 
     let nodes = most_nodes(shapes);
     let kept = Footprint::of::<B::Plain>(nodes).then(Footprint::of::<[I; 2]>(nodes));
     let scratch = match builder {
-        Builder::GoldsmithSalmon(Insertion::Curve) => Footprint::of::<I>(shapes).peak,
-        Builder::GoldsmithSalmon(_) => 0,
+        Builder::GoldsmithSalmon(Insertion::Curve)
+        | Builder::RTree(Insertion::Curve)
+        | Builder::Sah => Footprint::of::<I>(shapes).peak,
+        Builder::GoldsmithSalmon(_) | Builder::RTree(_) => 0,
     };
     kept.then(Footprint { kept: 0, peak: scratch })
 }
