@@ -5,9 +5,10 @@ use kibiray::accel::Accel;
 use kibiray::accel::mailbox::Off;
 use kibiray::accel::tree::{AnyTree, Builder, Insertion, Kind, Settings, Walk};
 use kibiray::memory::Arena;
-use kibiray::num::Real;
+use kibiray::num::{Fixed, Real};
 use kibiray::scene::{Scene, Shapes};
 use kibiray_host_sim::description::load::load;
+use kibiray_host_sim::frame::Frame;
 use kibiray_host_sim::tables::Tables;
 use kibiray_tests::{
     Answer, Memory, SMALL_SCENES, Shot, UNLIMITED, World, naive_answers, shots, view_of,
@@ -77,7 +78,9 @@ fn conform<R: Real>(number: &str, rays_per_scene: usize) {
     let mut memory = Memory::new(UNLIMITED);
     let (mut rays, mut hits) = (0, 0);
     for name in SMALL_SCENES {
-        let tables = Tables::<R>::new(&load(name).unwrap()).unwrap();
+        let description = load(name).unwrap();
+        let moved = Frame::of::<R>(&description).apply(&description).into_owned();
+        let tables = Tables::<R>::new(&moved).unwrap();
         let polygons = tables.polygons();
         let scene = tables.scene(&polygons).unwrap();
         let shots = shots(scene.bounds(), tables.view(), rays_per_scene, 1986);
@@ -87,7 +90,7 @@ fn conform<R: Real>(number: &str, rays_per_scene: usize) {
     // Ties, overlapping shapes of all kinds, and scenes of 0, 1 and 2 shapes a kind.
     let mut rng = fastrand::Rng::with_seed(7);
     for each in [0, 1, 2, 30] {
-        let world = World::random(&mut rng, each, [3.0, -2.0, 1.0], 5.0).repeated(2, &mut rng);
+        let world = World::random(&mut rng, each, [0.3, -0.2, 0.1], 0.5).repeated(2, &mut rng);
         let tables = world.tables::<R>();
         let polygons = tables.polygons();
         let scene = tables.scene(&polygons);
@@ -112,4 +115,9 @@ fn trees_give_the_hits_of_testing_all_in_f32() {
 #[test]
 fn trees_give_the_hits_of_testing_all_in_f64() {
     conform::<f64>("f64", rays_per_scene());
+}
+
+#[test]
+fn trees_give_the_hits_of_testing_all_in_fixed_point() {
+    conform::<Fixed>("fixed", rays_per_scene());
 }
