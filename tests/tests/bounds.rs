@@ -124,7 +124,7 @@ fn shoot<R: Real, S: Shapes<R>>(
     let both = Around::<Intersection<Sphere<R>, OrientedBox<R>>>::of(scene);
     let mut hits = 0;
     // Those that start farther away are moved nearer before they reach a structure.
-    let far = scene.bounds().max_abs().times_int(R::FAR);
+    let far = R::far(scene.bounds().max_abs());
     for ray in (0..count).filter_map(|_| shot()).filter(|ray| ray.origin().max_abs() <= far) {
         let Some(hit) = naive.nearest(scene, &ray, Interval::RAY, &mut Off, &mut ()) else {
             continue;

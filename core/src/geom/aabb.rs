@@ -41,7 +41,7 @@ impl<R: Real> Aabb<R> {
 
     /// The edge lengths.
     pub fn size(&self) -> Vec3<R> {
-        self.hi - self.lo
+        self.hi.zip(self.lo, |hi, lo| hi - lo)
     }
 
     /// Whether it contains no point at all; also when a bound is not a number.

@@ -92,7 +92,7 @@ impl<R: Real> Ray<R> {
 
     /// The point at parameter `t`.
     pub fn at(&self, t: R) -> Vec3<R> {
-        self.origin + self.direction * t
+        R::at(self.origin, self.direction, t)
     }
 
     /// The squared length of the direction.

@@ -114,9 +114,6 @@ pub trait Real:
     /// product with the direction and the sum each add up to half a unit, a shape's own test up to
     /// two; doubled.
     const POINT_ERROR: i32 = 8;
-    /// Rays that start more than so many times the scene's greatest coordinate away from the middle
-    /// are moved nearer first.
-    const FAR: i32 = 4;
 
     /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
@@ -205,6 +202,43 @@ pub trait Real:
     fn is_power(exponent: Self::Exponent) -> bool;
     /// `self` to a power, for `self` in 0 to 1: what highlights need. Off by less than 1/2700.
     fn powf(self, exponent: Self::Exponent) -> Self;
+
+    /// For a sphere of that radius, the parameter of a ray's point nearest to its centre, and from
+    /// there to where the ray meets the sphere; `None` where it passes by. `towards` is the way from
+    /// the ray's origin to the centre; `inverse` and `inverse_squared` are those of the direction's
+    /// length. May be `None` for a sphere that is met outside `min..=max` only.
+    fn chord(
+        towards: Self::Vec3,
+        direction: Self::Vec3,
+        [inverse, inverse_squared]: [Self; 2],
+        radius: Self,
+        _interval: (Self, Self),
+    ) -> Option<(Self, Self)> {
+        let middle = Self::narrow(towards.dot(direction)) * inverse_squared;
+        let across = towards - direction * middle;
+        let left = radius.times(radius) - across.dot(across);
+        (left >= Self::Wide::default()).then(|| (middle, Self::sqrt_wide(left) * inverse))
+    }
+
+    /// Rays that start farther from the middle are moved nearer to a scene with coordinates up to
+    /// `scale` first.
+    fn far(scale: Self) -> Self {
+        scale.times_int(4)
+    }
+    /// `origin + direction * t`.
+    fn at(origin: Self::Vec3, direction: Self::Vec3, t: Self) -> Self::Vec3 {
+        origin + direction * t
+    }
+    /// `x - slope * z`, for places in the scene as a ray sees them.
+    #[inline(always)]
+    fn sheared(x: Self, slope: Self, z: Self) -> Self {
+        x - slope * z
+    }
+    /// The difference of two places in the scene or of rays that are not far from it.
+    #[inline(always)]
+    fn way(self, from: Self) -> Self {
+        self - from
+    }
 
     /// Whether coordinates up to `reach` can be computed with: tests of shapes form products of
     /// three lengths, each up to the distance from which rays are shot.

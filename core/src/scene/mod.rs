@@ -174,7 +174,7 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
 
     /// Rays that start farther away than this are moved nearer first.
     pub(crate) fn far(&self) -> R {
-        self.scale.times_int(R::FAR)
+        R::far(self.scale)
     }
 
     /// The point lights.

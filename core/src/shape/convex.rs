@@ -25,7 +25,7 @@ pub trait Convex<R: Real>: Shape<R> {
 
 impl<R: Real> Convex<R> for Sphere<R> {
     fn span(&self, ray: &Ray<R>, length: &Self::PerRay) -> Option<(R, R)> {
-        self.crossings(ray, length)
+        self.crossings(ray, length, (-R::INFINITY, R::INFINITY))
     }
 }
 

@@ -54,7 +54,15 @@ impl<R: Real> Shape<R> for Plane<R> {
         if towards == R::Wide::default() {
             return None;
         }
-        let t = R::ratio(self.normal.dot(self.point - ray.origin()), towards);
+        let way = self.normal.dot(self.point - ray.origin());
+        // Behind the ray; to be told without a division where that is dear.
+        if R::EXACT
+            && min >= R::ZERO
+            && (way < R::Wide::default()) != (towards < R::Wide::default())
+        {
+            return None;
+        }
+        let t = R::ratio(way, towards);
         (t.is_finite() && t > min && t <= max).then_some(t)
     }
 

@@ -40,6 +40,12 @@ pub struct Length<R: Real> {
 impl<R: Real> Length<R> {
     /// A division and a square root.
     pub(super) fn of(ray: &Ray<R>) -> Self {
+        if R::EXACT {
+            // Lengths of 1 are common, and where they are not the root is of use for few spheres.
+            let unit = ray.squared() == R::ONE;
+            let inverse_squared = if unit { R::ONE } else { R::ONE / ray.squared() };
+            return Self { inverse_squared, inverse: R::ZERO };
+        }
         let inverse_squared = R::ONE / ray.squared();
         Self { inverse_squared, inverse: inverse_squared.sqrt() }
     }
@@ -50,37 +56,29 @@ impl<R: Real> Sphere<R> {
     #[inline]
     pub(crate) fn chord(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
         let f = self.center - ray.origin();
-        let d = ray.direction();
-        let middle = R::narrow(f.dot(d)) * length.inverse_squared;
-        let across = f - d * middle;
-        let discriminant = self.radius.times(self.radius) - across.dot(across);
-        if !(discriminant >= R::Wide::default()) {
-            return None;
-        }
-        let half = R::sqrt_wide(discriminant) * length.inverse;
+        let inverses = [length.inverse, length.inverse_squared];
+        let everywhere = (-R::INFINITY, R::INFINITY);
+        let (middle, half) = R::chord(f, ray.direction(), inverses, self.radius, everywhere)?;
         Some((middle - half, middle + half))
     }
 
-    /// Both crossings, the smaller first.
-    pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
+    /// Both crossings, the smaller first; of a sphere that the ray meets only outside the interval
+    /// perhaps none.
+    pub(super) fn crossings(
+        &self,
+        ray: &Ray<R>,
+        length: &Length<R>,
+        interval: (R, R),
+    ) -> Option<(R, R)> {
         let f = self.center - ray.origin();
-        let d = ray.direction();
-        // The parameter of the ray's point nearest to the centre, and from there to the centre.
-        let middle = R::narrow(f.dot(d)) * length.inverse_squared;
-        let across = f - d * middle;
-        let rr = self.radius.times(self.radius);
-        let discriminant = rr - across.dot(across);
-        if !(discriminant >= R::Wide::default()) {
-            return None;
-        }
-        let half = R::sqrt_wide(discriminant) * length.inverse;
+        let inverses = [length.inverse, length.inverse_squared];
+        let (middle, half) = R::chord(f, ray.direction(), inverses, self.radius, interval)?;
         if R::EXACT {
-            // The length's rounding is taken back where it shows: along the ray.
-            let middle = middle + R::narrow(across.dot(d)) * length.inverse_squared;
             return Some((middle - half, middle + half));
         }
         let outer = if middle >= R::ZERO { middle + half } else { middle - half };
         // The product of both solutions is (|f|² - r²) / |d|².
+        let rr = self.radius.times(self.radius);
         let inner = R::narrow(f.dot(f) - rr) * length.inverse_squared / outer;
         // It is the smaller one, whatever rounding says of a ray that touches where it starts.
         let inner = inner.clamp(-outer.abs(), outer.abs());
@@ -122,7 +120,7 @@ impl<R: Real> Shape<R> for Sphere<R> {
     }
 
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
-        let (near, far) = self.crossings(ray, length)?;
+        let (near, far) = self.crossings(ray, length, (min, max))?;
         if near > min {
             (near <= max).then_some(near)
         } else {

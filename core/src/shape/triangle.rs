@@ -120,16 +120,16 @@ impl<R: Real> Shear<R> {
     #[inline]
     pub(crate) fn apply(&self, point: &Vec3<R>) -> (R, R, R) {
         let ([u, v, w], [x, y, z]) = (self.axes, self.origin);
-        let z = point.pick(w) - z;
-        let (x, y) = (point.pick(u) - x, point.pick(v) - y);
-        (x - self.slope.0 * z, y - self.slope.1 * z, self.scale * z)
+        let z = point.pick(w).way(z);
+        let (x, y) = (point.pick(u).way(x), point.pick(v).way(y));
+        (R::sheared(x, self.slope.0, z), R::sheared(y, self.slope.1, z), self.scale * z)
     }
 
     /// The second of these coordinates alone.
     #[inline]
     pub(crate) fn second(&self, point: &Vec3<R>) -> R {
         let ([_, v, w], [_, y, z]) = (self.axes, self.origin);
-        (point.pick(v) - y) - self.slope.1 * (point.pick(w) - z)
+        R::sheared(point.pick(v).way(y), self.slope.1, point.pick(w).way(z))
     }
 }
 

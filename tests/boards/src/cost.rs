@@ -32,7 +32,7 @@ pub fn exit(done: Option<()>) -> ! {
 }
 
 /// Nearest and any hit of a ray.
-pub fn query<S: Shapes<f32>, K: Structure>(shapes: S) -> Option<()> {
+pub fn query<S: Shapes<f32>, K: Structure<f32>>(shapes: S) -> Option<()> {
     let mut arena = Arena::new(MEMORY.take()?);
     let scene = Scene::new(black_box(shapes)).ok()?;
     let accel = K::build(&scene, &mut arena).ok()?;
@@ -53,7 +53,7 @@ fn ask<S: Shapes<f32>>(
 static LIGHTS: [Light<f32>; 1] = [Light { position: V::Y, color: V::ONE }];
 
 /// A picture with shadows, without mirrors.
-pub fn shadows<S: Shapes<f32>, K: Structure>(shapes: S) -> Option<()> {
+pub fn shadows<S: Shapes<f32>, K: Structure<f32>>(shapes: S) -> Option<()> {
     let mut arena = Arena::new(MEMORY.take()?);
     let scene = Scene::new(black_box(shapes)).ok()?.lit(black_box(&LIGHTS), V::ZERO).ok()?;
     let accel = K::build(&scene, &mut arena).ok()?;

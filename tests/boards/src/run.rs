@@ -8,6 +8,7 @@ use kibiray::accel::octree::StoppedBy;
 use kibiray::accel::{Accel, BuildError, Mailbox, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
+use kibiray::num::Real;
 use kibiray::scene::{Camera, Scene, SceneError, Shapes};
 use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Crc32, Plain, Row, Structure, Subject, answer};
@@ -52,16 +53,8 @@ pub fn subject<S: Subject>(memory: &mut [u8], row: &mut [u8]) -> Result<(), &'st
 // stack while rays are traced.
 
 #[inline(never)]
-fn scene<S: Subject>() -> Result<Scene<'static, f32, S::Shapes>, SceneError> {
+fn scene<S: Subject>() -> Result<Scene<'static, S::Number, S::Shapes>, SceneError> {
     S::scene()
-}
-
-#[inline(never)]
-fn structure<'m, S: Subject>(
-    scene: &Scene<'_, f32, S::Shapes>,
-    arena: &mut Arena<'m>,
-) -> Result<<S::Structure as Structure>::Built<'m>, BuildError> {
-    S::Structure::build(scene, arena)
 }
 
 #[inline(never)]
@@ -97,15 +90,15 @@ fn print<S: Subject>(
 /// summed up.
 #[inline(never)]
 fn picture<S: Subject>(
-    scene: &Scene<'_, f32, S::Shapes>,
-    accel: &impl Accel<f32>,
+    scene: &Scene<'_, S::Number, S::Shapes>,
+    accel: &impl Accel<S::Number>,
     row: &mut [u8],
 ) -> Result<(u32, u64), &'static str> {
     let (width, height) = S::SIZE;
     if height == 0 {
         return Ok((0, 0));
     }
-    let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height));
+    let camera = Camera::new(&S::view(), S::Number::fraction(width.into(), height.into()));
     let camera = camera.map_err(|_| "no camera")?;
     let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
     let tracer = Tracer::new(scene, accel, mailbox::Off, settings);
@@ -124,8 +117,8 @@ fn picture<S: Subject>(
 /// and for any.
 #[inline(never)]
 fn queries<S: Subject>(
-    scene: &Scene<'_, f32, S::Shapes>,
-    accel: &impl Accel<f32>,
+    scene: &Scene<'_, S::Number, S::Shapes>,
+    accel: &impl Accel<S::Number>,
     mut mailbox: impl Mailbox,
 ) -> (u32, u64, u64) {
     let (mut sum, mut rays) = (Crc32::new(), 0_u64);

@@ -9,6 +9,7 @@ use kibiray::accel::octree::StoppedBy;
 use kibiray::accel::{Accel, Naive, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
+use kibiray::num::Real;
 use kibiray::scene::{Camera, Scene, Shapes};
 use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Card, Plain, Structure, Subject, answer};
@@ -54,14 +55,14 @@ impl DrawTarget for Picture {
 
 /// A subject's picture as rows of 8-bit RGB.
 fn picture<S: Subject>(
-    scene: &Scene<'static, f32, S::Shapes>,
-    accel: &impl Accel<f32>,
+    scene: &Scene<'static, S::Number, S::Shapes>,
+    accel: &impl Accel<S::Number>,
 ) -> Result<Vec<u8>> {
     let (width, height) = S::SIZE;
     if height == 0 {
         return Ok(Vec::new());
     }
-    let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height))?;
+    let camera = Camera::new(&S::view(), S::Number::fraction(width.into(), height.into()))?;
     let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
     let tracer = Tracer::new(scene, accel, mailbox::Off, settings);
     let bytes = usize::from(width) * usize::from(height) * 3;
@@ -76,8 +77,8 @@ fn hex(bytes: &[u8]) -> String {
 
 impl Sums {
     fn of<S: Subject>(
-        scene: &Scene<'static, f32, S::Shapes>,
-        accel: &impl Accel<f32>,
+        scene: &Scene<'static, S::Number, S::Shapes>,
+        accel: &impl Accel<S::Number>,
     ) -> Result<Self> {
         let off = &mut mailbox::Off;
         let answers: Vec<_> = S::rays()
@@ -156,8 +157,8 @@ pub(crate) struct Memory {
 fn with_structure<S: Subject, T>(
     capacity: usize,
     work: impl FnOnce(
-        &Scene<'static, f32, S::Shapes>,
-        &<S::Structure as Structure>::Built<'_>,
+        &Scene<'static, S::Number, S::Shapes>,
+        &<S::Structure as Structure<S::Number>>::Built<'_>,
         &Arena<'_>,
     ) -> Result<T>,
 ) -> Result<T> {

@@ -1,5 +1,6 @@
 //! Reciprocals, and walls at equal distances along a ray.
 
+use super::whole::{quotient, shifted};
 use super::{DIGITS, Fixed};
 use crate::num;
 
@@ -17,14 +18,19 @@ impl Reciprocal {
         let size = d.to_bits().unsigned_abs();
         let length = u32::BITS - size.leading_zeros();
         // 2^28 / size is 2^(28 - length) times a number from 1 to 2, of which 31 bits are kept.
-        let nearest = (1_u64 << (30 + length)) + u64::from(size / 2);
-        let Some(mantissa) = nearest.checked_div(size.into()) else {
+        if size == 0 {
             return Self::default();
-        };
+        }
         // What is 2 becomes the next smaller number.
-        let mantissa = mantissa.min(i32::MAX as u64) as i32;
+        let mantissa = quotient((1_u64 << (30 + length)) + u64::from(size / 2), size);
+        let mantissa = mantissa.min(i32::MAX as u32) as i32;
         let mantissa = if d.to_bits() < 0 { -mantissa } else { mantissa };
         Self { mantissa, shift: (2 + length).min(31) }
+    }
+
+    /// Half of what is shifted out.
+    fn half(self) -> i64 {
+        (1_u32 << self.shift >> 1).into()
     }
 }
 
@@ -41,7 +47,8 @@ impl num::Reciprocal<Fixed> for Reciprocal {
         if self.mantissa == 0 {
             return Fixed::default();
         }
-        Fixed::rounded(i64::from(x.to_bits()) * i64::from(self.mantissa), self.shift)
+        let product = i64::from(x.to_bits()) * i64::from(self.mantissa);
+        Fixed::from_bits(shifted(product + self.half(), self.shift))
     }
 }
 
@@ -75,7 +82,7 @@ impl num::Cells<Fixed> for Cells {
 
 /// Parameters at which a ray meets walls at equal distances: those of the first and between two,
 /// times a mantissa and not yet divided by a power of two, so that none is rounded before it is
-/// asked for.
+/// asked for. The first has half of what will be cut off.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
     start: i64,
@@ -89,7 +96,7 @@ impl Progress {
         // A product of 64 and 32 bits without its last 28.
         let (high, low) = (cells.width >> DIGITS, cells.width & ((1 << DIGITS) - 1));
         Self {
-            start: i64::from(from.to_bits()) * mantissa,
+            start: i64::from(from.to_bits()) * mantissa + reciprocal.half(),
             width: high * mantissa + ((low * mantissa) >> DIGITS),
             shift: reciprocal.shift,
         }
@@ -120,8 +127,7 @@ impl num::Progress<Fixed> for Progress {
 
     #[inline]
     fn at(&self, i: i32) -> Fixed {
-        let steps = self.start + self.width * i64::from(i);
-        Fixed::saturated((steps + ((1 << self.shift) >> 1)) >> self.shift)
+        Fixed::from_bits(shifted(self.start + self.width * i64::from(i), self.shift))
     }
 
     fn rebased(&self, origin: i32, shift: u8) -> Self {

@@ -22,7 +22,7 @@
 //! A scene is **normalised** when it is made: its coordinates are at most 1/2
 //! ([`Real::is_workable`]; shapes beyond are refused with
 //! [`ShapeError::NotFinite`](crate::shape::ShapeError::NotFinite)). Rays start at most 2 away from
-//! the middle along every axis (those from farther are moved: [`Real::FAR`]) and have directions
+//! the middle along every axis (those from farther are moved: [`Real::far`]) and have directions
 //! with squares from 3/4 to 3 ([`Real::is_ordinary`]; others are scaled by a power of two). From
 //! there to any point of the scene it is 2.5 along an axis and 4.4 in all; a ray parameter is at
 //! most 5.1, a product of a way and a direction at most 7.5, a sum of three products of ways at most
@@ -33,6 +33,7 @@
 
 mod linear;
 mod vector;
+mod whole;
 
 pub use linear::{Cells, Progress, Reciprocal};
 pub use vector::{FarPoint, Vec3};
@@ -41,6 +42,7 @@ use super::{Real, Vector};
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use fixed::types::{I4F28, I8F56, U22F10};
+use whole::{nearest_root, quotient, shifted};
 
 /// Bits after the point.
 const DIGITS: u32 = 28;
@@ -94,15 +96,15 @@ impl Fixed {
         }
     }
 
-    /// Rounds away `digits` binary digits, 1 to 62, of a number of steps.
+    /// Rounds away `digits` binary digits, 1 to 31, of a number of steps.
     #[inline]
     const fn rounded(steps: i64, digits: u32) -> Self {
-        Self::saturated((steps + (1 << (digits - 1))) >> digits)
+        Self::from_bits(shifted(steps + (1 << (digits - 1)), digits))
     }
 
     #[inline]
-    fn signed(negative: bool, steps: u64) -> Self {
-        let steps = steps.min(i32::MAX as u64) as i32;
+    fn signed(negative: bool, steps: u32) -> Self {
+        let steps = steps.min(i32::MAX as u32) as i32;
         Self::from_bits(if negative { -steps } else { steps })
     }
 }
@@ -152,8 +154,7 @@ impl Div for Fixed {
     fn div(self, rhs: Self) -> Self {
         let (n, d) = (u64::from(self.0.to_bits().unsigned_abs()), rhs.0.to_bits().unsigned_abs());
         let negative = (self.to_bits() < 0) != (rhs.to_bits() < 0);
-        let nearest = ((n << DIGITS) + u64::from(d / 2)).checked_div(u64::from(d));
-        Self::signed(negative, nearest.unwrap_or(u64::MAX))
+        Self::signed(negative, quotient((n << DIGITS) + u64::from(d / 2), d))
     }
 }
 
@@ -178,7 +179,6 @@ impl Real for Fixed {
     /// Twice that of floats: an error in a round shape is one of steps, however small the shape.
     const SLACK: i32 = 64;
     const POINT_ERROR: i32 = 16;
-    const FAR: i32 = 4;
 
     fn from_f64(x: f64) -> Self {
         Self::new(x)
@@ -190,9 +190,8 @@ impl Real for Fixed {
         Self::saturated(i64::from(i) << DIGITS)
     }
     fn fraction(a: i32, b: i32) -> Self {
-        let (n, d) = (u64::from(a.unsigned_abs()), u64::from(b.unsigned_abs()));
-        let nearest = ((n << DIGITS) + d / 2).checked_div(d);
-        Self::signed((a < 0) != (b < 0), nearest.unwrap_or(u64::MAX))
+        let (n, d) = (u64::from(a.unsigned_abs()), b.unsigned_abs());
+        Self::signed((a < 0) != (b < 0), quotient((n << DIGITS) + u64::from(d / 2), d))
     }
     fn times_int(self, n: i32) -> Self {
         Self::saturated(i64::from(self.to_bits()) * i64::from(n))
@@ -216,7 +215,7 @@ impl Real for Fixed {
         Self(self.0.saturating_abs())
     }
     fn sqrt(self) -> Self {
-        nearest_root((self.to_bits().max(0) as u64) << DIGITS)
+        Self::signed(false, nearest_root((self.to_bits().max(0) as u64) << DIGITS))
     }
     fn next_up(self) -> Self {
         Self::from_bits(self.to_bits().saturating_add(1))
@@ -232,7 +231,7 @@ impl Real for Fixed {
         if exponent >= 0 {
             Self::saturated(steps << exponent.min(31))
         } else {
-            Self::rounded(steps, exponent.unsigned_abs().min(40))
+            Self::rounded(steps, exponent.unsigned_abs().min(31))
         }
     }
 
@@ -244,25 +243,27 @@ impl Real for Fixed {
         Self::rounded(w.to_bits(), DIGITS)
     }
     fn sqrt_wide(w: I8F56) -> Self {
-        nearest_root(w.to_bits().max(0) as u64)
+        Self::signed(false, nearest_root(w.to_bits().max(0) as u64))
     }
     /// Within 2^-30 of the value of the nearest.
     fn ratio(numerator: I8F56, denominator: I8F56) -> Self {
         let negative = numerator.is_negative() != denominator.is_negative();
         let (n, d) = (numerator.to_bits().unsigned_abs(), denominator.to_bits().unsigned_abs());
         if d == 0 {
-            return Self::signed(negative, u64::MAX);
+            return Self::signed(negative, u32::MAX);
         }
         // Both moved to the upper end, of the divisor 32 bits taken: a short division will do.
         let (up, high) = (n.leading_zeros(), d.leading_zeros());
         let (n, d) = (n << (up & 63), ((d << high) >> 32) as u32);
-        // The quotient, of 32 or 33 bits, is to be divided by 2^digits.
-        let quotient = n.checked_div(d.into()).unwrap_or(0);
-        let digits = 32 + up as i32 - high as i32 - DIGITS as i32;
+        // The quotient, of 32 bits, is to be divided by 2^digits.
+        let one_more = (n >> 32) as u32 >= d;
+        let quotient = quotient(n >> u32::from(one_more), d);
+        let digits = 32 + up as i32 - high as i32 - DIGITS as i32 - i32::from(one_more);
         let steps = match digits {
             ..=0 if n == 0 => 0,
-            ..=0 => u64::MAX,
-            1..=40 => (quotient + (1 << (digits - 1))) >> digits,
+            ..=0 => u32::MAX,
+            1..=31 => (quotient >> digits) + (quotient >> (digits - 1) & 1),
+            32 => quotient >> 31,
             _ => 0,
         };
         Self::signed(negative, steps)
@@ -276,9 +277,8 @@ impl Real for Fixed {
         let [a, b, c] = steps.map(|w| (w >> digits) as u32);
         let [x, y, w] = z.map(|z| i64::from(z.to_bits()));
         let sum = x * i64::from(a) + y * i64::from(b) + w * i64::from(c);
-        let all = u64::from(a) + u64::from(b) + u64::from(c);
-        let nearest = (sum.unsigned_abs() + all / 2).checked_div(all);
-        Self::signed(sum < 0, nearest.unwrap_or(u64::MAX))
+        let all = a.wrapping_add(b).wrapping_add(c);
+        Self::signed(sum < 0, quotient(sum.unsigned_abs() + u64::from(all / 2), all))
     }
     /// The discriminant is exact.
     fn root(a: I8F56, b: I8F56, c: I8F56) -> Option<I8F56> {
@@ -302,8 +302,8 @@ impl Real for Fixed {
             divisor = odd * ONE - squared.checked_div(divisor).unwrap_or(0);
         }
         let (n, d) = if steep { (divisor, x) } else { (x, divisor) };
-        let nearest = ((n << DIGITS) + d / 2).checked_div(d);
-        Self::signed(false, nearest.unwrap_or(u64::MAX))
+        let nearest = ((n << DIGITS) + d / 2).checked_div(d).unwrap_or(u64::MAX);
+        Self::signed(false, nearest.min(u32::MAX.into()) as u32)
     }
     fn exponent(x: f64) -> Exponent {
         Exponent::from_bits((x * 1024.0) as u32)
@@ -317,6 +317,65 @@ impl Real for Fixed {
 
     fn ulps_at(n: i32, _magnitude: Self) -> Self {
         Self::ulps(n)
+    }
+    #[inline(always)]
+    fn chord(
+        towards: Vec3,
+        direction: Vec3,
+        [_, inverse_squared]: [Self; 2],
+        radius: Self,
+        (min, max): (Self, Self),
+    ) -> Option<(Self, Self)> {
+        // Everything is in range here: see the proof above.
+        let product = |a: i32, b: i32| i64::from(a) * i64::from(b);
+        let cut = |steps: i64| ((steps + (1 << (DIGITS - 1))) >> DIGITS) as i32;
+        let [x, y, z] = towards.to_array().map(Self::to_bits);
+        let [dx, dy, dz] = direction.to_array().map(Self::to_bits);
+        let inverse = inverse_squared.to_bits();
+        let middle = cut(product(x, dx) + product(y, dy) + product(z, dz));
+        let middle = cut(product(middle, inverse));
+        // The length of a direction is at least √3/4, so no crossing is farther away than that.
+        let radius = radius.to_bits();
+        let farthest = radius + (radius >> 2) + 8;
+        if middle.wrapping_sub(farthest) > max.to_bits()
+            || middle.wrapping_add(farthest) < min.to_bits()
+        {
+            return None;
+        }
+        let across = |f: i32, d: i32| f.wrapping_sub(cut(product(d, middle)));
+        let (x, y, z) = (across(x, dx), across(y, dy), across(z, dz));
+        let left = product(radius, radius) - (product(x, x) + product(y, y) + product(z, z));
+        if left < 0 {
+            return None;
+        }
+        let rest = cut(product(x, dx) + product(y, dy) + product(z, dz));
+        Some(half_chord(middle, rest, left as u64, inverse_squared))
+    }
+    /// Errors do not grow with the distance: as far as the range goes.
+    fn far(_scale: Self) -> Self {
+        Self::from_i32(2)
+    }
+    #[inline]
+    fn at(origin: Vec3, direction: Vec3, t: Self) -> Vec3 {
+        let along = |o: Self, d: Self| {
+            let steps = i64::from(o.to_bits()) << DIGITS;
+            Self::rounded(steps + i64::from(d.to_bits()) * i64::from(t.to_bits()), DIGITS)
+        };
+        Vec3::new(
+            along(origin.x, direction.x),
+            along(origin.y, direction.y),
+            along(origin.z, direction.z),
+        )
+    }
+    #[inline(always)]
+    fn sheared(x: Self, slope: Self, z: Self) -> Self {
+        let product = i64::from(slope.to_bits()) * i64::from(z.to_bits());
+        let steps = (product + (1 << (DIGITS - 1))) >> DIGITS;
+        Self::from_bits(x.to_bits().wrapping_sub(steps as i32))
+    }
+    #[inline(always)]
+    fn way(self, from: Self) -> Self {
+        Self(self.0 - from.0)
     }
     fn is_workable(reach: Self) -> bool {
         reach <= Self::HALF
@@ -353,11 +412,16 @@ impl Real for Fixed {
     }
 }
 
-/// The nearest number to the root of a number of steps of 2^-56.
-fn nearest_root(radicand: u64) -> Fixed {
-    let root = radicand.isqrt();
-    let up = radicand - root * root > root;
-    Fixed::signed(false, root + u64::from(up))
+/// The chord of a sphere that is hit, of what [`Real::chord`] knows; apart from it, as it is rare.
+#[inline(never)]
+fn half_chord(middle: i32, rest: i32, left: u64, inverse_squared: Fixed) -> (Fixed, Fixed) {
+    let half = Fixed::signed(false, nearest_root(left));
+    // What rounding left along the ray is taken back.
+    let rest = Fixed::from_bits(rest);
+    if inverse_squared == Fixed::ONE {
+        return (Fixed::from_bits(middle) + rest, half);
+    }
+    (Fixed::from_bits(middle) + rest * inverse_squared, half * inverse_squared.sqrt())
 }
 
 #[cfg(test)]

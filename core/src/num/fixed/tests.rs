@@ -189,3 +189,44 @@ fn whole_numbers_and_bytes_are_exact() {
     }
     assert_eq!((Fixed::from_i32(-1).to_byte(), Fixed::from_i32(2).to_byte()), (0, 255));
 }
+
+#[test]
+fn whole_quotients_and_roots_are_exact() {
+    let mut random = Random(10);
+    let mut any = || {
+        let bits = (u64::from(random.within(0.0, 1.0).to_bits()) << 41)
+            ^ (u64::from(random.within(0.0, 1.0).to_bits()) << 20)
+            ^ u64::from(random.within(0.0, 1.0).to_bits());
+        bits >> (random.within(0.0, 63.0) as u32)
+    };
+    let edges = [0, 1, 2, 3, 0xffff, 0x1_0000, 0x1_0001, u32::MAX, u32::MAX - 1, 1 << 31];
+    for i in 0..200_000 {
+        let d = edges.get(i).copied().unwrap_or_else(|| any() as u32);
+        for n in [any(), u64::from(d) * 77, (u64::from(d) << 32).wrapping_sub(1)] {
+            let exact = n.checked_div(d.into()).unwrap_or(u64::MAX).min(u32::MAX.into());
+            assert_eq!(u64::from(quotient(n, d)), exact, "{n} {d}");
+        }
+    }
+    for i in 0..400_000_u64 {
+        let x = if i < 1000 { i } else { any() >> 1 };
+        let root = x.isqrt();
+        let nearest = root + u64::from(x - root * root > root);
+        assert_eq!(u64::from(nearest_root(x)), nearest, "{x}");
+    }
+    for i in 0..400_000_u64 {
+        let root = any() as u32 >> 1;
+        let square = u64::from(root) * u64::from(root);
+        assert_eq!(nearest_root(square + (i & 1)), root + u32::from(root == 0 && i & 1 == 1));
+    }
+    for digits in 1..32 {
+        for x in [0, 1, -1, i64::MAX, i64::MIN, i64::from(i32::MAX) << digits, (1 << 31) << digits]
+        {
+            let exact = (x >> digits).clamp(-i64::from(i32::MAX) - 1, i32::MAX.into());
+            let found = i64::from(shifted(x, digits));
+            assert!(
+                found == exact || (exact < -i64::from(i32::MAX) && found == exact + 1),
+                "{x} {digits}"
+            );
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! Three fixed-point numbers, and points far away.
 
-use super::{DIGITS, Fixed};
+use super::Fixed;
+use super::whole::reciprocal_root;
 use crate::num::{Real, Vector};
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -40,9 +41,10 @@ impl Add for Vec3 {
 
 impl Sub for Vec3 {
     type Output = Self;
+    /// Does not saturate: places of the scene and directions are not so far apart.
     #[inline]
     fn sub(self, rhs: Self) -> Self {
-        Self::new(self.x - rhs.x, self.y - rhs.y, self.z - rhs.z)
+        Self::new(self.x.way(rhs.x), self.y.way(rhs.y), self.z.way(rhs.z))
     }
 }
 
@@ -88,14 +90,19 @@ impl Vector<Fixed> for Vec3 {
     fn unit(self) -> Option<Self> {
         let exponent = self.max_abs().exponent_to_one();
         // From 1 to 2; of zero it is zero still.
-        let moved = self.map(|x| x.ldexp(exponent));
-        let length = moved.length();
-        if !(length >= Fixed::ONE && self.is_finite()) {
+        let moved = self.map(|x| {
+            let steps = x.to_bits();
+            Fixed::from_bits(if exponent >= 0 { steps << (exponent & 31) } else { steps >> 2 })
+        });
+        let squared = moved.dot(moved).to_bits() as u64;
+        let up = squared.leading_zeros() & !1;
+        // 4 or 6 when the square is from 1 to 12.
+        if up > 6 || !self.is_finite() {
             return None;
         }
         // 1 / length, at most 1, in 31 digits.
-        let inverse = (1_u64 << (DIGITS + 31)) / length.to_bits() as u64;
-        let part = |x: Fixed| Fixed::rounded(i64::from(x.to_bits()) * inverse as i64, 31);
+        let inverse = reciprocal_root(((squared << up) >> 32) as u32) >> (4 - up / 2);
+        let part = |x: Fixed| Fixed::rounded(i64::from(x.to_bits()) * i64::from(inverse), 31);
         Some(moved.map(part))
     }
 
@@ -152,6 +159,10 @@ impl FarPoint {
 
     /// The way to it, 2^-exponent of it.
     pub(super) fn seen_from(self, point: Vec3) -> Vec3 {
-        self.position - point.map(|x| x.ldexp(-self.exponent()))
+        let point = match self.exponent {
+            0 => point,
+            exponent => point.map(|x| x.ldexp(-i32::from(exponent))),
+        };
+        self.position.zip(point, |to, from| to - from)
     }
 }

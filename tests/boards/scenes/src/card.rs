@@ -54,7 +54,7 @@ static FLOOR: [Plane<f32>; 1] = [Plane::new(V::ZERO, V::Y)];
 static SURFACES: [Material<f32>; 5] = MATERIALS;
 static LIGHTS: [Light<f32>; 1] = [LIGHT];
 
-static PAINT: [Paint; 5] = [
+pub(crate) const PAINT: [Paint; 5] = [
     Paint { first: 0, material: 0 },
     Paint { first: 1, material: 1 },
     Paint { first: 2, material: 2 },
@@ -62,22 +62,25 @@ static PAINT: [Paint; 5] = [
     Paint { first: 4, material: 4 },
 ];
 
+static RUNS: [Paint; 5] = PAINT;
+
 impl Subject for Card {
     const NAME: &'static str = "card";
     const SIZE: (u16, u16) = (320, 240);
     const DEPTH: u8 = 3;
+    type Number = f32;
     type Structure = structure::Naive;
     type Shapes = (&'static [Sphere<f32>], &'static [Plane<f32>]);
 
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
-        Scene::new((&BALLS[..], &FLOOR[..]))?.painted(&SURFACES, &PAINT)?.lit(&LIGHTS, SKY)
+        Scene::new((&BALLS[..], &FLOOR[..]))?.painted(&SURFACES, &RUNS)?.lit(&LIGHTS, SKY)
     }
 
     fn view() -> View<f32> {
         VIEW
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Around::new(400, 2.0)
     }
 }

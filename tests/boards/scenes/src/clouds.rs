@@ -39,11 +39,11 @@ pub type TrianglesOctree = Triangles<Octree<4, 3>>;
 /// Triangles in the best hierarchy.
 pub type TrianglesBvh = Triangles<Bvh<128>>;
 
-const COUNT: usize = 512;
+pub(crate) const COUNT: usize = 512;
 /// The square root of `COUNT`: sizes shrink with it, so that as much of the view is covered.
 const ROOT: f32 = 22.627_417;
 
-static SPHERES: [Sphere<f32>; COUNT] = {
+pub(crate) const SPHERES: [Sphere<f32>; COUNT] = {
     let mut random = Xorshift(0x1234_5678);
     let mut spheres = [Sphere::new(Vec3::ZERO, 1.0); COUNT];
     let mut i = 0;
@@ -62,7 +62,7 @@ const fn near([x, y, z]: [f32; 3], random: &mut Xorshift) -> Vec3 {
     Vec3::new(x + a * SIZE, y + b * SIZE, z + c * SIZE)
 }
 
-static TRIANGLES: [Triangle<f32>; COUNT] = {
+pub(crate) const TRIANGLES: [Triangle<f32>; COUNT] = {
     let mut random = Xorshift(0x2345_6789);
     let mut triangles = [Triangle::new(Vec3::ZERO, Vec3::ZERO, Vec3::ZERO); COUNT];
     let mut i = 0;
@@ -76,15 +76,18 @@ static TRIANGLES: [Triangle<f32>; COUNT] = {
     triangles
 };
 
+static BALLS: [Sphere<f32>; COUNT] = SPHERES;
+static SHARDS: [Triangle<f32>; COUNT] = TRIANGLES;
+
 /// A thousand rays from a sphere of radius 3 to points of the cube.
 #[derive(Clone, Copy, Debug)]
-struct Inwards {
+pub(crate) struct Inwards {
     random: Xorshift,
     left: u32,
 }
 
 impl Inwards {
-    const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self { random: Xorshift(0x9e37_79b9), left: 1000 }
     }
 
@@ -105,9 +108,9 @@ impl Inwards {
 }
 
 impl Iterator for Inwards {
-    type Item = Shot;
+    type Item = Shot<f32>;
 
-    fn next(&mut self) -> Option<Shot> {
+    fn next(&mut self) -> Option<Shot<f32>> {
         self.left = self.left.checked_sub(1)?;
         let origin = self.direction() * 3.0;
         let direction = (self.cube() - origin).normalize();
@@ -115,30 +118,32 @@ impl Iterator for Inwards {
     }
 }
 
-impl<K: Structure> Subject for Spheres<K> {
+impl<K: Structure<f32>> Subject for Spheres<K> {
     const NAME: &'static str = "spheres";
+    type Number = f32;
     type Structure = K;
     type Shapes = &'static [Sphere<f32>];
 
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
-        Scene::new(&SPHERES[..])
+        Scene::new(&BALLS[..])
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Inwards::new()
     }
 }
 
-impl<K: Structure> Subject for Triangles<K> {
+impl<K: Structure<f32>> Subject for Triangles<K> {
     const NAME: &'static str = "triangles";
+    type Number = f32;
     type Structure = K;
     type Shapes = &'static [Triangle<f32>];
 
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
-        Scene::new(&TRIANGLES[..])
+        Scene::new(&SHARDS[..])
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Inwards::new()
     }
 }

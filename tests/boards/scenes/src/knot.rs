@@ -136,6 +136,7 @@ impl Subject for Knot {
     const NAME: &'static str = "knot";
     const SIZE: (u16, u16) = (32, 24);
     const DEPTH: u8 = 2;
+    type Number = f32;
     type Structure = structure::Octree<8, 7>;
     type Shapes = Triangles<'static, f32>;
 
@@ -149,7 +150,7 @@ impl Subject for Knot {
         View { from: V::new(0.0, -4.0, 9.0), at: V::ZERO, up: V::Y, angle: 0.8 }
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Around::new(200, 2.5)
     }
 }

@@ -66,6 +66,7 @@ static LIGHTS: [Light<f32>; 3] = [
 impl Subject for Lamps {
     const NAME: &'static str = "lamps";
     const SIZE: (u16, u16) = (32, 24);
+    type Number = f32;
     type Structure = structure::Grid<6, 4, 5>;
     type Shapes = (&'static [Sphere<f32>], &'static [Triangle<f32>]);
 
@@ -79,7 +80,7 @@ impl Subject for Lamps {
         View { from: V::new(1.5, 1.0, 5.0), at: V::new(0.0, -0.125, 0.0), up: V::Y, angle: 0.7 }
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Around::new(400, 1.5)
     }
 }

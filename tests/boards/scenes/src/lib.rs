@@ -9,6 +9,7 @@
 mod card;
 pub mod clouds;
 mod crc;
+pub mod fixed;
 mod knot;
 mod lamps;
 mod lcg;
@@ -35,7 +36,7 @@ pub use sponge::Sponge;
 pub use structure::Structure;
 pub use tetra::Tetra;
 
-use kibiray::num::Vec3;
+use kibiray::num::{Real, Vec3, Vector};
 use kibiray::scene::{Scene, SceneError, Shapes, View};
 
 /// A scene with the work that is done on it.
@@ -46,24 +47,32 @@ pub trait Subject {
     const SIZE: (u16, u16) = (0, 0);
     /// Depth to which rays are followed.
     const DEPTH: u8 = 5;
+    /// In which numbers it is traced.
+    type Number: Real;
     /// What the device builds over the shapes.
-    type Structure: Structure;
+    type Structure: Structure<Self::Number>;
     /// The kinds of shapes.
-    type Shapes: Shapes<f32>;
+    type Shapes: Shapes<Self::Number>;
 
     /// The scene, checked.
     ///
     /// # Errors
     /// Those of the core; none is expected.
-    fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError>;
+    fn scene() -> Result<Scene<'static, Self::Number, Self::Shapes>, SceneError>;
 
     /// Where the picture is taken from.
-    fn view() -> View<f32> {
-        View { from: Vec3::<f32>::Z, at: Vec3::<f32>::ZERO, up: Vec3::<f32>::Y, angle: 1.0 }
+    fn view() -> View<Self::Number> {
+        let vector = |v| Vec3::<Self::Number>::from_f64(v);
+        View {
+            from: vector([0.0, 0.0, 1.0]),
+            at: vector([0.0; 3]),
+            up: vector([0.0, 1.0, 0.0]),
+            angle: Self::Number::ONE,
+        }
     }
 
     /// The rays that queries are about.
-    fn rays() -> impl Iterator<Item = Shot>;
+    fn rays() -> impl Iterator<Item = Shot<Self::Number>>;
 }
 
 /// Does something with every subject.
@@ -90,4 +99,13 @@ pub fn all(each: &mut impl Each) {
     each.subject::<clouds::TrianglesStampedGrid>();
     each.subject::<clouds::TrianglesOctree>();
     each.subject::<clouds::TrianglesBvh>();
+    each.subject::<fixed::FixedCard>();
+    each.subject::<fixed::FixedSpheresNaive>();
+    each.subject::<fixed::FixedSpheresGrid>();
+    each.subject::<fixed::FixedSpheresOctree>();
+    each.subject::<fixed::FixedSpheresBvh>();
+    each.subject::<fixed::FixedTrianglesNaive>();
+    each.subject::<fixed::FixedTrianglesGrid>();
+    each.subject::<fixed::FixedTrianglesOctree>();
+    each.subject::<fixed::FixedTrianglesBvh>();
 }

@@ -60,6 +60,7 @@ static LIGHTS: [Light<f32>; 2] = [
 impl Subject for Marbles {
     const NAME: &'static str = "marbles";
     const SIZE: (u16, u16) = (32, 24);
+    type Number = f32;
     type Structure = structure::Octree<2, 8>;
     type Shapes = (&'static [Sphere<f32>], &'static [Triangle<f32>]);
 
@@ -73,7 +74,7 @@ impl Subject for Marbles {
         View { from: V::new(1.0, 1.0, 3.5), at: V::new(0.0, -0.125, 0.0), up: V::Y, angle: 0.9 }
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Around::new(400, 1.0)
     }
 }

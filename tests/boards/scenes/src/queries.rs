@@ -3,17 +3,19 @@
 use crate::lcg::Lcg;
 use kibiray::accel::Hit;
 use kibiray::geom::{Interval, Ray};
-use kibiray::num::Vec3;
+use kibiray::num::{Real, Vec3};
 
 /// What one ray met: the bits of `t` and the id of the nearest hit, little end first (all ones for
 /// a miss), then 1 or 0 for whether anything blocks the way.
 pub type Answer = [u8; 9];
 
 /// An answer from what the two queries gave.
-pub fn answer(hit: Option<Hit<f32>>, blocked: bool) -> Answer {
+pub fn answer<R: Real>(hit: Option<Hit<R>>, blocked: bool) -> Answer {
     let mut answer = [0xff; 9];
     if let Some(hit) = hit {
-        answer[..4].copy_from_slice(&hit.t.to_bits().to_le_bytes());
+        for (to, from) in answer[..4].iter_mut().zip(bytemuck::bytes_of(&hit.t)) {
+            *to = *from;
+        }
         answer[4..8].copy_from_slice(&(hit.id as u32).to_le_bytes());
     }
     answer[8] = blocked.into();
@@ -22,11 +24,11 @@ pub fn answer(hit: Option<Hit<f32>>, blocked: bool) -> Answer {
 
 /// A ray, and the piece of it that may be blocked.
 #[derive(Clone, Copy, Debug)]
-pub struct Shot {
+pub struct Shot<R: Real> {
     /// Asked for its nearest hit.
-    pub ray: Ray<f32>,
+    pub ray: Ray<R>,
     /// Asked for any hit.
-    pub between: Interval<f32>,
+    pub between: Interval<R>,
 }
 
 /// Rays with directions of any length: every other one starts near the origin, the rest mostly
@@ -46,9 +48,9 @@ impl Around {
 }
 
 impl Iterator for Around {
-    type Item = Shot;
+    type Item = Shot<f32>;
 
-    fn next(&mut self) -> Option<Shot> {
+    fn next(&mut self) -> Option<Shot<f32>> {
         // A direction of zero makes no ray; the next one is taken.
         while self.left > 0 {
             let r = &mut self.random;

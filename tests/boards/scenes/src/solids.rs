@@ -97,6 +97,7 @@ impl Subject for AllSolids {
     const NAME: &'static str = "solids";
     const SIZE: (u16, u16) = (32, 24);
     const DEPTH: u8 = 4;
+    type Number = f32;
     type Structure = structure::Grid<5, 4, 4>;
     type Shapes = Solids<'static, f32>;
 
@@ -119,7 +120,7 @@ impl Subject for AllSolids {
         View { from: V::new(1.0, 2.5, 5.5), at: V::new(0.0, 1.0, 0.0), up: V::Y, angle: 0.75 }
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Around::new(400, 2.0)
     }
 }

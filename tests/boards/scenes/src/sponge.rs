@@ -54,6 +54,7 @@ impl Subject for Sponge {
     const NAME: &'static str = "sponge";
     const SIZE: (u16, u16) = (32, 24);
     const DEPTH: u8 = 1;
+    type Number = f32;
     type Structure = structure::Octree<4, 4>;
     type Shapes = &'static [AxisBox<f32>];
 
@@ -65,7 +66,7 @@ impl Subject for Sponge {
         View { from: V::new(1.75, 1.5, 3.0), at: V::ZERO, up: V::Y, angle: 0.75 }
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Around::new(400, 1.25)
     }
 }

@@ -3,14 +3,15 @@
 use kibiray::accel::octree::{self, StoppedBy};
 use kibiray::accel::{self, Accel, BuildError, Mailbox, mailbox};
 use kibiray::memory::Arena;
+use kibiray::num::Real;
 use kibiray::scene::{Scene, Shapes};
 
 /// A structure and its parameters.
-pub trait Structure {
+pub trait Structure<R: Real> {
     /// What reports call it.
     const NAME: &'static str;
     /// What is built.
-    type Built<'m>: Accel<f32>;
+    type Built<'m>: Accel<R>;
     /// What keeps queries from testing a shape twice.
     type Mailbox<'m>: Mailbox;
 
@@ -18,8 +19,8 @@ pub trait Structure {
     ///
     /// # Errors
     /// Those of the core.
-    fn build<'m, S: Shapes<f32>>(
-        scene: &Scene<'_, f32, S>,
+    fn build<'m, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError>;
 
@@ -39,13 +40,13 @@ pub trait Structure {
 #[derive(Clone, Copy, Debug)]
 pub struct Naive;
 
-impl Structure for Naive {
+impl<R: Real> Structure<R> for Naive {
     const NAME: &'static str = "naive";
     type Built<'m> = accel::Naive;
     type Mailbox<'m> = mailbox::Off;
 
-    fn build<'m, S: Shapes<f32>>(
-        scene: &Scene<'_, f32, S>,
+    fn build<'m, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
         _arena: &mut Arena<'m>,
     ) -> Result<accel::Naive, BuildError> {
         Ok(accel::Naive::new(scene))
@@ -60,13 +61,13 @@ impl Structure for Naive {
 #[derive(Clone, Copy, Debug)]
 pub struct Grid<const X: u32, const Y: u32, const Z: u32>;
 
-impl<const X: u32, const Y: u32, const Z: u32> Structure for Grid<X, Y, Z> {
+impl<R: Real, const X: u32, const Y: u32, const Z: u32> Structure<R> for Grid<X, Y, Z> {
     const NAME: &'static str = "grid";
-    type Built<'m> = accel::Grid<'m, f32, u16, u16>;
+    type Built<'m> = accel::Grid<'m, R, u16, u16>;
     type Mailbox<'m> = mailbox::Off;
 
-    fn build<'m, S: Shapes<f32>>(
-        scene: &Scene<'_, f32, S>,
+    fn build<'m, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError> {
         accel::Grid::build(scene, [X, Y, Z], arena)
@@ -81,13 +82,13 @@ impl<const X: u32, const Y: u32, const Z: u32> Structure for Grid<X, Y, Z> {
 #[derive(Clone, Copy, Debug)]
 pub struct StampedGrid<const X: u32, const Y: u32, const Z: u32>;
 
-impl<const X: u32, const Y: u32, const Z: u32> Structure for StampedGrid<X, Y, Z> {
+impl<R: Real, const X: u32, const Y: u32, const Z: u32> Structure<R> for StampedGrid<X, Y, Z> {
     const NAME: &'static str = "stamped-grid";
-    type Built<'m> = accel::Grid<'m, f32, u16, u16>;
+    type Built<'m> = accel::Grid<'m, R, u16, u16>;
     type Mailbox<'m> = mailbox::Stamps<'m>;
 
-    fn build<'m, S: Shapes<f32>>(
-        scene: &Scene<'_, f32, S>,
+    fn build<'m, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError> {
         accel::Grid::build(scene, [X, Y, Z], arena)
@@ -102,13 +103,13 @@ impl<const X: u32, const Y: u32, const Z: u32> Structure for StampedGrid<X, Y, Z
 #[derive(Clone, Copy, Debug)]
 pub struct Octree<const OBJECTS: usize, const LEVEL: u32>;
 
-impl<const OBJECTS: usize, const LEVEL: u32> Structure for Octree<OBJECTS, LEVEL> {
+impl<R: Real, const OBJECTS: usize, const LEVEL: u32> Structure<R> for Octree<OBJECTS, LEVEL> {
     const NAME: &'static str = "octree";
-    type Built<'m> = accel::Octree<'m, f32, u16>;
+    type Built<'m> = accel::Octree<'m, R, u16>;
     type Mailbox<'m> = mailbox::Off;
 
-    fn build<'m, S: Shapes<f32>>(
-        scene: &Scene<'_, f32, S>,
+    fn build<'m, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError> {
         let limits = octree::Limits { max_objects: OBJECTS, max_level: LEVEL };
@@ -128,13 +129,13 @@ impl<const OBJECTS: usize, const LEVEL: u32> Structure for Octree<OBJECTS, LEVEL
 #[derive(Clone, Copy, Debug)]
 pub struct Bvh<const NODES: usize>;
 
-impl<const NODES: usize> Structure for Bvh<NODES> {
+impl<R: Real, const NODES: usize> Structure<R> for Bvh<NODES> {
     const NAME: &'static str = "bvh";
-    type Built<'m> = accel::Bvh<'m, f32, u16>;
+    type Built<'m> = accel::Bvh<'m, R, u16>;
     type Mailbox<'m> = mailbox::Off;
 
-    fn build<'m, S: Shapes<f32>>(
-        scene: &Scene<'_, f32, S>,
+    fn build<'m, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError> {
         accel::Bvh::build(scene, NODES, arena)

@@ -67,6 +67,7 @@ impl Subject for Tetra {
     const NAME: &'static str = "tetra";
     const SIZE: (u16, u16) = (32, 24);
     const DEPTH: u8 = 1;
+    type Number = f32;
     type Structure = structure::Grid<8, 8, 8>;
     type Shapes = &'static [Triangle<f32>];
 
@@ -80,7 +81,7 @@ impl Subject for Tetra {
         View { from: V::new(2.0, 1.0, 3.0), at: V::ZERO, up: V::Y, angle: 0.75 }
     }
 
-    fn rays() -> impl Iterator<Item = Shot> {
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
         Around::new(400, 1.0)
     }
 }

@@ -1,0 +1,5 @@
+//! The card in fixed point.
+#![no_std]
+#![no_main]
+
+kibiray_boards::firmware!(kibiray_scenes::fixed::FixedCard);

@@ -1,0 +1,5 @@
+//! Rays through 512 triangles in fixed point, in a grid.
+#![no_std]
+#![no_main]
+
+kibiray_boards::firmware!(kibiray_scenes::fixed::FixedTrianglesGrid);
