@@ -51,6 +51,7 @@ pub(super) fn quotient(n: u64, d: u32) -> u32 {
 }
 
 /// First guesses at the roots of the reciprocals of 16/64 to 63/64, in 2^-7.
+#[allow(clippy::indexing_slicing, reason = "while it is compiled")]
 const GUESSES: [u8; 48] = {
     let mut guesses = [0; 48];
     let mut i = 0;
