@@ -9,17 +9,18 @@ use kibiray::accel::{self, BuildError, octree};
 use kibiray::memory::{Arena, OutOfArena};
 use kibiray::num::{Real, Vec3};
 use kibiray::plan::{Plan, Structure, Wishes, plan};
-use kibiray::scene::{Scene, Shapes, Solids};
+use kibiray::scene::{Scene, Shapes};
 use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 
 use crate::options::{
     AccelKind, Antialiasing, Common, Growth, Huge, MailboxKind, Overlap, Store, Switch, Walk,
 };
 use crate::structure;
+use crate::tables::HostShapes;
 
 /// What traces on this host.
 pub type HostTracer<'a, R> =
-    Tracer<'a, R, Solids<'a, R>, structure::Structure<'a, R>, AnyMailbox<'a>>;
+    Tracer<'a, R, HostShapes<'a, R>, structure::Structure<'a, R>, AnyMailbox<'a>>;
 
 /// Bytes that an arena lies in.
 #[derive(Debug)]

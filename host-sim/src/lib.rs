@@ -11,6 +11,7 @@ pub mod engine;
 pub mod frame;
 pub mod image;
 pub mod options;
+pub mod parts;
 pub mod picture;
 pub mod plot;
 pub mod rays;

@@ -6,12 +6,13 @@ use kibiray::accel::mailbox::AnyMailbox;
 use kibiray::display::rgb888;
 use kibiray::num::Real;
 use kibiray::probe::Counters;
-use kibiray::scene::{Camera, Scene, Solids};
+use kibiray::scene::{Camera, Scene};
 use kibiray::trace::{Renderer, Settings, Tracer};
 
 use crate::engine::{AnySampling, Built, Pass, fastest, share, timed};
 use crate::image::Image;
 use crate::structure::Structure;
+use crate::tables::HostShapes;
 
 /// A picture and what it took.
 #[derive(Debug)]
@@ -28,13 +29,14 @@ pub struct Rendered {
 
 /// A thread's renderer and its counters.
 struct Worker<'a, R: Real> {
-    renderer: Renderer<'a, R, Solids<'a, R>, Structure<'a, R>, AnyMailbox<'a>, AnySampling<'a, R>>,
+    renderer:
+        Renderer<'a, R, HostShapes<'a, R>, Structure<'a, R>, AnyMailbox<'a>, AnySampling<'a, R>>,
     counters: Counters,
 }
 
 /// Renders a picture so many times, with a thread for every mailbox.
 pub fn render<R: Real>(
-    scene: &Scene<'_, R, Solids<'_, R>>,
+    scene: &Scene<'_, R, HostShapes<'_, R>>,
     built: Built<'_, R>,
     camera: Camera<R>,
     settings: Settings<R>,

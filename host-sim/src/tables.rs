@@ -3,10 +3,11 @@
 use kibiray::num::{Real, Vec3, Vector};
 use kibiray::scene::{Light, Material, Paint, Pattern, Scene, SceneError, Solids, Triangles, View};
 use kibiray::shape::{
-    AxisBox, Cone, Cylinder, Plane, Polygon, Shape, ShapeError, Sphere, Triangle,
+    AxisBox, Cone, Cylinder, Plane, Polygon, Polyhedron, Shape, ShapeError, Sphere, Triangle,
 };
 
 use crate::description::{self, Description, Solid, Triple};
+use crate::parts::{Combined, PartError, PartTables};
 
 /// Why a description does not become tables. Displays as one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +19,13 @@ pub enum TableError {
         /// What is wrong with it.
         why: ShapeError,
     },
+    /// Solids that cannot be put together.
+    Combined {
+        /// The id of the primitive, where it is known.
+        id: Option<usize>,
+        /// What is wrong with it.
+        why: PartError,
+    },
     /// More different surfaces than the core numbers.
     Surfaces(usize),
     /// What the core itself refuses.
@@ -28,6 +36,8 @@ impl std::fmt::Display for TableError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Primitive { id, why } => write!(f, "primitive {id}: {why}"),
+            Self::Combined { id: Some(id), why } => write!(f, "primitive {id}: {why}"),
+            Self::Combined { id: None, why } => write!(f, "combined solids: {why}"),
             Self::Surfaces(count) => {
                 write!(f, "{count} different surfaces, at most {} can be numbered", MOST_SURFACES)
             }
@@ -70,10 +80,12 @@ impl<T> Table<T> {
 
 /// A scene in the number type that it is traced in: what would lie in a device's flash.
 ///
-/// Shapes are sorted by kind in the order of [`Solids`], within a kind in the order of the file;
-/// triangles with vertex normals come before those without.
+/// Shapes are sorted by kind, combined solids first and then in the order of [`Solids`], within a
+/// kind in the order of the file; triangles with vertex normals come before those without.
 #[derive(Debug)]
 pub struct Tables<R: Real> {
+    parts: PartTables<R>,
+    combined: Vec<Origin>,
     spheres: Table<Sphere<R>>,
     smooth: Table<Triangle<R>>,
     normals: Vec<[Vec3<R>; 3]>,
@@ -93,6 +105,16 @@ pub struct Tables<R: Real> {
     view: View<R>,
     ids: Vec<u32>,
     skipped: usize,
+}
+
+/// The shapes that are traced: combined solids, and one table a kind.
+pub type HostShapes<'a, R> = (Combined<'a, R>, Solids<'a, R>);
+
+/// What borrows from [`Tables`] and is borrowed by a scene.
+#[derive(Debug)]
+pub struct Borrowing<'a, R: Real> {
+    polygons: Vec<Polygon<'a, R>>,
+    polyhedra: Vec<Polyhedron<'a, R>>,
 }
 
 fn vector<R: Real>(v: Triple) -> Vec3<R> {
@@ -115,6 +137,11 @@ impl<R: Real> Tables<R> {
             tables.add(&item.solid, origin)?;
         }
         tables.finish();
+        let combined = |(object, why): (Option<usize>, _)| {
+            let id = object.and_then(|object| tables.combined.get(object));
+            TableError::Combined { id: id.map(|origin| origin.id as usize), why }
+        };
+        tables.parts.finish().map_err(combined)?;
         Ok(tables)
     }
 
@@ -126,6 +153,8 @@ impl<R: Real> Tables<R> {
         };
         let view = crate::view::of(description);
         Self {
+            parts: PartTables::default(),
+            combined: Vec::new(),
             spheres: Table::default(),
             smooth: Table::default(),
             normals: Vec::new(),
@@ -203,6 +232,14 @@ impl<R: Real> Tables<R> {
                     self.planes.push(plane, origin);
                 }
             }
+            Solid::Csg { steps } => {
+                let refused = |why| {
+                    let id = Some(origin.id as usize);
+                    TableError::Combined { id, why: PartError::Shape(why) }
+                };
+                self.parts.add(steps).map_err(refused)?;
+                self.combined.push(origin);
+            }
         }
         Ok(())
     }
@@ -247,6 +284,7 @@ impl<R: Real> Tables<R> {
         self.triangles = std::mem::take(&mut self.smooth.shapes);
         self.triangles.append(&mut self.flat.shapes);
         let origins = [
+            &self.combined,
             &self.spheres.origins,
             &self.smooth.origins,
             &self.flat.origins,
@@ -266,15 +304,18 @@ impl<R: Real> Tables<R> {
         }
     }
 
-    /// The polygons, borrowing their corners.
-    pub fn polygons(&self) -> Vec<Polygon<'_, R>> {
+    /// The polygons and polyhedra, borrowing their corners and faces.
+    pub fn polygons(&self) -> Borrowing<'_, R> {
         let mut first = 0;
         let polygon = |end: &usize| {
             let corners = &self.vertices[first..*end];
             first = *end;
             Polygon::new(corners)
         };
-        self.ends.shapes.iter().map(polygon).collect()
+        Borrowing {
+            polygons: self.ends.shapes.iter().map(polygon).collect(),
+            polyhedra: self.parts.polyhedra(),
+        }
     }
 
     /// The scene that the core traces.
@@ -283,18 +324,20 @@ impl<R: Real> Tables<R> {
     /// What the core refuses.
     pub fn scene<'a>(
         &'a self,
-        polygons: &'a [Polygon<'a, R>],
-    ) -> Result<Scene<'a, R, Solids<'a, R>>, TableError> {
+        borrowing: &'a Borrowing<'a, R>,
+    ) -> Result<Scene<'a, R, HostShapes<'a, R>>, TableError> {
+        let refused = |error| TableError::Combined { id: None, why: PartError::Csg(error) };
+        let combined = self.parts.combined(&borrowing.polyhedra).map_err(refused)?;
         let solids = Solids {
             spheres: &self.spheres.shapes,
             triangles: Triangles { triangles: &self.triangles, normals: &self.normals },
-            polygons,
+            polygons: &borrowing.polygons,
             boxes: &self.boxes.shapes,
             cylinders: &self.cylinders.shapes,
             cones: &self.cones.shapes,
             planes: &self.planes.shapes,
         };
-        Scene::new(solids)
+        Scene::new((combined, solids))
             .and_then(|scene| scene.painted(&self.materials, &self.paint))
             .and_then(|scene| scene.lit(&self.lights, self.background))
             .map_err(|error| match error {
@@ -328,7 +371,8 @@ impl<R: Real> Tables<R> {
     /// Bytes of all tables, which would lie in a device's flash; as laid out on this host, where a
     /// pointer takes twice the bytes of a microcontroller's.
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.spheres.shapes)
+        self.parts.bytes()
+            + size_of_val(&*self.spheres.shapes)
             + size_of_val(&*self.triangles)
             + size_of_val(&*self.normals)
             + self.ends.shapes.len() * size_of::<Polygon<'_, R>>()

@@ -1,5 +1,6 @@
 //! A view, a light and a background for descriptions that have none.
 
+use crate::description::solids::Step;
 use crate::description::{Description, Light, Solid, Triple, View};
 
 /// The description's view; without one a view of everything from the front right, a little above.
@@ -75,6 +76,11 @@ pub fn bounds(description: &Description) -> (Triple, Triple) {
                 include(hi, 0.0);
             }
             Solid::Plane { .. } => {}
+            Solid::Csg { steps } => steps.iter().for_each(|step| {
+                if let Step::Part(part) = step {
+                    part.corners().iter().for_each(|corner| include(corner, 0.0));
+                }
+            }),
         }
     }
     if lo[0] <= hi[0] { (lo, hi) } else { ([-1.0; 3], [1.0; 3]) }

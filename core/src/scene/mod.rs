@@ -230,7 +230,8 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         };
         let point = ray.at(t);
         let reach = point.max_abs();
-        let error = R::ulps_at(R::POINT_ERROR, ray.reach().max(reach));
+        let computed_from = ray.reach().max(reach).max(self.shapes.reach(id));
+        let error = R::ulps_at(R::POINT_ERROR, computed_from);
         Some(Surface { point, normal, shading, front, error, reach: reach + error })
     }
 }

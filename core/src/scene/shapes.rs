@@ -97,6 +97,12 @@ pub trait Shapes<R: Real> {
 
     /// See [`Shape::shading_normal`].
     fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>>;
+
+    /// The greatest coordinate that hits of a shape are computed from, where that may be greater
+    /// than those of the hit.
+    fn reach(&self, _id: usize) -> R {
+        R::ZERO
+    }
 }
 
 /// The shapes of one kind. An id beyond the end is never hit.
@@ -290,6 +296,13 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         match id.checked_sub(self.0.count()) {
             None => self.0.shading_normal(id, ray, t),
             Some(id) => self.1.shading_normal(id, ray, t),
+        }
+    }
+
+    fn reach(&self, id: usize) -> R {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.reach(id),
+            Some(id) => self.1.reach(id),
         }
     }
 }

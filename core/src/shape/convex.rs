@@ -17,6 +17,12 @@ pub trait Convex<R: Real>: Shape<R> {
         true
     }
 
+    /// The greatest coordinate that its crossings are computed from: what their errors are
+    /// proportional to.
+    fn reach(&self) -> R {
+        self.bounds().max_abs()
+    }
+
     /// A box around the solid; for the half-space it is another one than around its plane.
     fn extent(&self) -> Aabb<R> {
         self.bounds()
@@ -72,6 +78,10 @@ impl<R: Real> Convex<R> for Plane<R> {
         } else {
             Some((-R::INFINITY, t))
         }
+    }
+
+    fn reach(&self) -> R {
+        self.point.max_abs()
     }
 
     /// Where the plane is square to an axis it bounds the half-space on that side.

@@ -110,6 +110,11 @@ impl<R: Real> Convex<R> for Polyhedron<'_, R> {
         let [enter, leave] = self.walls(ray)?;
         Some((enter.0, leave.0))
     }
+
+    fn reach(&self) -> R {
+        let points = self.faces.iter().map(|face| face.point.max_abs());
+        points.fold(self.bounds.max_abs(), R::max)
+    }
 }
 
 /// A box around what is behind all planes: everything where that has no end, nothing where there is

@@ -7,7 +7,7 @@ use kibiray::accel::BuildError;
 use kibiray::memory::OutOfArena;
 use kibiray::num::Real;
 use kibiray::probe::Counters;
-use kibiray::scene::{Scene, Solids};
+use kibiray::scene::Scene;
 
 use super::Usage;
 use crate::description::Description;
@@ -18,7 +18,7 @@ use crate::options::{Common, Number};
 use crate::report::{
     AccelReport, MemoryReport, RaysReport, Report, SceneReport, TimeReport, WorkReport,
 };
-use crate::tables::Tables;
+use crate::tables::{HostShapes, Tables};
 
 /// Memory that is taken when `--ram` is not given.
 pub(super) const DEFAULT_RAM: usize = 256 << 10;
@@ -26,7 +26,7 @@ pub(super) const DEFAULT_RAM: usize = 256 << 10;
 /// Everything is ready to trace.
 pub(super) struct Stage<'a, R: Real> {
     pub(super) tables: &'a Tables<R>,
-    pub(super) scene: &'a Scene<'a, R, Solids<'a, R>>,
+    pub(super) scene: &'a Scene<'a, R, HostShapes<'a, R>>,
     pub(super) frame: Frame,
     pub(super) built: Built<'a, R>,
     /// The report as far as it is known before a ray is shot.

@@ -7,18 +7,19 @@ use kibiray::accel::Accel;
 use kibiray::accel::mailbox::AnyMailbox;
 use kibiray::num::{Fixed, Real, Vector};
 use kibiray::probe::{Counters, Probe};
-use kibiray::scene::{Scene, Solids};
+use kibiray::scene::Scene;
 
 use super::stage::{self, DEFAULT_RAM, Stage};
 use super::{Usage, shown};
 use crate::engine::{Built, Picture, fastest, share};
 use crate::frame::{Frame, Way};
 use crate::options::{Number, Trace};
+use crate::rays;
 use crate::rays::{Answer, Query};
 use crate::report::RaysReport;
 use crate::structure::Structure;
+use crate::tables::{HostShapes, Tables};
 use crate::values::is_dash;
-use crate::{rays, tables::Tables};
 
 pub(super) fn run(options: &Trace) -> anyhow::Result<()> {
     if is_dash(&options.hits) && options.common.json_to_stdout() {
@@ -91,7 +92,7 @@ fn trace<R: Real>(options: &Trace, stage: Stage<'_, R>) -> anyhow::Result<()> {
 
 /// What queries are put to.
 struct Asker<'a, R: Real> {
-    scene: &'a Scene<'a, R, Solids<'a, R>>,
+    scene: &'a Scene<'a, R, HostShapes<'a, R>>,
     accel: &'a Structure<'a, R>,
     any: bool,
 }
@@ -132,7 +133,7 @@ fn read<R: Real>(options: &Trace, frame: &Frame) -> anyhow::Result<Vec<Query<R>>
 fn write<R: Real>(
     options: &Trace,
     tables: &Tables<R>,
-    scene: &Scene<'_, R, Solids<'_, R>>,
+    scene: &Scene<'_, R, HostShapes<'_, R>>,
     queries: &[Query<R>],
     answers: &[Answer<R>],
 ) -> anyhow::Result<()> {

@@ -62,8 +62,8 @@ impl std::error::Error for LoadError {
         match self {
             Self::Spd(error) => Some(error),
             Self::Io { error, .. } => Some(error),
-            Self::Parse { error, .. } => Some(error),
-            Self::UnknownScene(_) | Self::Size(_) => None,
+            // Its line and reason are in the message already.
+            Self::Parse { .. } | Self::UnknownScene(_) | Self::Size(_) => None,
         }
     }
 }

@@ -3,9 +3,11 @@
 pub mod demo;
 pub mod load;
 pub mod nff;
+mod nff_solids;
 pub mod nff_write;
 pub mod obj;
 mod parse;
+pub mod solids;
 pub mod spd;
 
 pub use parse::ParseError;
@@ -102,7 +104,7 @@ pub enum Solid {
         apex: Triple,
         /// Radius at the other end.
         apex_radius: f64,
-        /// Whether discs close the ends; never in NFF.
+        /// Whether discs close the ends: NFF's `c` is open, `cone` of our extension is closed.
         capped: bool,
     },
     /// NFF `p` and `pp`: one planar polygon, concave allowed.
@@ -119,19 +121,24 @@ pub enum Solid {
         /// A normal at each corner, or empty.
         normals: Vec<Triple>,
     },
-    /// An axis-aligned box; built-in scenes only.
+    /// An axis-aligned box; `box` of our extension of NFF.
     Box {
         /// Least corner.
         lo: Triple,
         /// Greatest corner.
         hi: Triple,
     },
-    /// An infinite plane; built-in scenes only.
+    /// An infinite plane; `plane` of our extension of NFF.
     Plane {
         /// A point on it.
         point: Triple,
         /// Its normal, of any length.
         normal: Triple,
+    },
+    /// What is put together from closed solids, or one such solid; our extension of NFF.
+    Csg {
+        /// In postfix notation.
+        steps: Vec<solids::Step>,
     },
 }
 
@@ -153,6 +160,13 @@ impl Solid {
             }
             Self::Box { lo, hi } => (*lo, *hi) = (point(*lo), point(*hi)),
             Self::Plane { point: p, .. } => *p = point(*p),
+            Self::Csg { steps } => {
+                for step in steps {
+                    if let solids::Step::Part(part) = step {
+                        part.moved(point, scale);
+                    }
+                }
+            }
         }
     }
 }

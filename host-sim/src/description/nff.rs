@@ -8,8 +8,10 @@
 use std::collections::HashMap;
 use std::fmt::Display;
 
+use super::nff_solids::Blocks;
 use super::nff_write::g;
 use super::parse::{ParseError, Tokens, number, quoted, text};
+use super::solids::Body;
 use super::{Description, Item, Light, Material, Solid, Triple, View};
 
 /// What primitives look like before the first `f`.
@@ -39,11 +41,14 @@ pub fn parse(text: &str) -> Result<Description, ParseError> {
     while let Some((line, keyword)) = reader.tokens.next() {
         reader.statement(line, keyword)?;
     }
+    reader.blocks.check_closed()?;
     Ok(reader.scene)
 }
 
-struct Reader<'a> {
-    tokens: Tokens<'a>,
+pub(super) struct Reader<'a> {
+    pub(super) tokens: Tokens<'a>,
+    /// What is open of our extension.
+    pub(super) blocks: Blocks,
     scene: Description,
     has_background: bool,
     material: Option<usize>,
@@ -55,6 +60,7 @@ impl<'a> Reader<'a> {
     fn new(text: &'a str) -> Self {
         Self {
             tokens: Tokens::new(text),
+            blocks: Blocks::new(),
             scene: Description::default(),
             has_background: false,
             material: None,
@@ -68,6 +74,7 @@ impl<'a> Reader<'a> {
             "v" => self.view(line),
             "l" => self.light(line),
             "f" => {
+                self.blocks.outside_of_combinations(line, "one surface for the whole: no f")?;
                 let form = "fill needs 8 numbers \"f r g b Kd Ks shine T ior\"";
                 let numbers = self.numbers(line, &form)?;
                 self.material = Some(self.intern(numbers));
@@ -76,20 +83,14 @@ impl<'a> Reader<'a> {
             "s" => {
                 let [x, y, z, r] =
                     self.numbers(line, &"sphere needs 4 numbers \"s x y z radius\"")?;
-                self.add(Solid::Sphere { center: [x, y, z], radius: r.abs() });
+                self.part(Body::Sphere { center: [x, y, z], radius: r.abs() });
                 Ok(())
             }
             "c" => {
                 let form = "cone needs 8 numbers \"c x y z radius x y z radius\"";
                 let [x, y, z, base_radius, u, v, w, apex_radius] = self.numbers(line, &form)?;
-                self.add(Solid::Cone {
-                    base: [x, y, z],
-                    base_radius: base_radius.abs(),
-                    apex: [u, v, w],
-                    apex_radius: apex_radius.abs(),
-                    capped: false,
-                });
-                Ok(())
+                let (base, apex) = ([x, y, z], [u, v, w]);
+                self.open_cone(line, (base, base_radius.abs()), (apex, apex_radius.abs()))
             }
             "p" => self.polygon(line, false),
             "pp" => self.polygon(line, true),
@@ -100,15 +101,21 @@ impl<'a> Reader<'a> {
                     quoted(keyword)
                 ),
             )),
+            _ if self.extension(line, keyword)? => Ok(()),
             _ => Err(ParseError::new(
                 line,
-                format!("unknown statement {}: NFF has b v l f s c p pp and #", quoted(keyword)),
+                format!(
+                    "unknown statement {}: NFF has b v l f s c p pp and #, and there are box cone \
+                     polyhedron halfspace plane, union intersection difference, translate rotate \
+                     scale transform, end",
+                    quoted(keyword)
+                ),
             )),
         }
     }
 
     /// `N` numbers of the statement that began at `line`; `form` says what it needs.
-    fn numbers<const N: usize>(
+    pub(super) fn numbers<const N: usize>(
         &mut self,
         line: usize,
         form: &dyn Display,
@@ -117,7 +124,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The same where `before` numbers have been read.
-    fn more_numbers<const N: usize>(
+    pub(super) fn more_numbers<const N: usize>(
         &mut self,
         line: usize,
         form: &dyn Display,
@@ -145,6 +152,7 @@ impl<'a> Reader<'a> {
     }
 
     fn background(&mut self, line: usize) -> Result<(), ParseError> {
+        self.blocks.outside(line, "no background")?;
         if self.has_background {
             return Err(ParseError::new(line, "a second background: keep one b"));
         }
@@ -154,6 +162,7 @@ impl<'a> Reader<'a> {
     }
 
     fn light(&mut self, line: usize) -> Result<(), ParseError> {
+        self.blocks.outside(line, "no light")?;
         let form = "light needs 3 or 6 numbers \"l x y z [r g b]\"";
         let position = self.numbers(line, &form)?;
         let color = match self.tokens.peek() {
@@ -168,6 +177,7 @@ impl<'a> Reader<'a> {
     }
 
     fn view(&mut self, line: usize) -> Result<(), ParseError> {
+        self.blocks.outside(line, "no view")?;
         if self.scene.view.is_some() {
             return Err(ParseError::new(line, "a second view: keep one v"));
         }
@@ -243,11 +253,10 @@ impl<'a> Reader<'a> {
                 normals.push(self.more_numbers(line, &form, i * each + 3)?);
             }
         }
-        self.add(Solid::Polygon { vertices, normals });
-        Ok(())
+        self.placed_polygon(line, vertices, normals)
     }
 
-    fn add(&mut self, solid: Solid) {
+    pub(super) fn add(&mut self, solid: Solid) {
         let material = match self.material {
             Some(material) => material,
             None => {

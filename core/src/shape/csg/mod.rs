@@ -269,4 +269,15 @@ impl<R: Real, S: Parts<R>, const N: usize> Shapes<R> for Csg<'_, R, S, N> {
     fn shading_normal(&self, _id: usize, _ray: &Ray<R>, _t: R) -> Option<Vec3<R>> {
         None
     }
+
+    /// What is left of a part may be much smaller than the part.
+    fn reach(&self, id: usize) -> R {
+        let Some(root) = self.trees.root(id) else { return R::ZERO };
+        let steps = self.trees.steps.get(self.trees.begin(id)..=root).unwrap_or_default();
+        let reach = |step: &Step| match step {
+            Step::Part(part) => self.parts.part_reach(usize::from(*part)),
+            Step::Join(_) => R::ZERO,
+        };
+        steps.iter().map(reach).fold(R::ZERO, R::max)
+    }
 }

@@ -16,6 +16,9 @@ pub trait Parts<R: Real>: Shapes<R> {
 
     /// See [`Convex::extent`].
     fn extent(&self, id: usize) -> Aabb<R>;
+
+    /// See [`Convex::reach`].
+    fn part_reach(&self, id: usize) -> R;
 }
 
 /// The solids of one kind.
@@ -30,6 +33,10 @@ impl<R: Real, T: Convex<R>> Parts<R> for &[T] {
 
     fn extent(&self, id: usize) -> Aabb<R> {
         self.get(id).map_or_else(Aabb::empty, T::extent)
+    }
+
+    fn part_reach(&self, id: usize) -> R {
+        self.get(id).map_or(R::ZERO, T::reach)
     }
 }
 
@@ -53,6 +60,13 @@ impl<R: Real, A: Parts<R>, B: Parts<R>> Parts<R> for (A, B) {
         match id.checked_sub(self.0.count()) {
             None => self.0.extent(id),
             Some(id) => self.1.extent(id),
+        }
+    }
+
+    fn part_reach(&self, id: usize) -> R {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.part_reach(id),
+            Some(id) => self.1.part_reach(id),
         }
     }
 }

@@ -17,13 +17,25 @@ pub struct Demo {
     pub name: &'static str,
     /// What it shows, in one line.
     pub about: &'static str,
-    build: fn() -> Description,
+    build: Build,
+}
+
+/// Where a scene comes from.
+#[derive(Clone, Copy, Debug)]
+enum Build {
+    Code(fn() -> Description),
+    /// The text of a file in `host-sim/scenes`.
+    Nff(&'static str),
 }
 
 impl Demo {
     /// The scene.
     pub fn describe(&self) -> Description {
-        Description { name: self.name.into(), ..(self.build)() }
+        let description = match self.build {
+            Build::Code(build) => build(),
+            Build::Nff(text) => super::nff::parse(text).unwrap_or_default(),
+        };
+        Description { name: self.name.into(), ..description }
     }
 }
 
@@ -31,13 +43,32 @@ static DEMOS: &[Demo] = &[
     Demo {
         name: DEFAULT,
         about: "every kind of shape on a terrace by the sea; fits 64KiB",
-        build: still_life::build,
+        build: Build::Code(still_life::build),
     },
-    Demo { name: "helix", about: "a double helix over a mirror; fits 32KiB", build: helix::build },
+    Demo {
+        name: "helix",
+        about: "a double helix over a mirror; fits 32KiB",
+        build: Build::Code(helix::build),
+    },
     Demo {
         name: "room",
         about: "a room with a mirror and a glass ball; needs no structure, so no memory",
-        build: room::build,
+        build: Build::Code(room::build),
+    },
+    Demo {
+        name: "carved",
+        about: "a cube and a ball without three cylinders; host-sim/scenes/carved.nff",
+        build: Build::Nff(include_str!("../../../scenes/carved.nff")),
+    },
+    Demo {
+        name: "dice",
+        about: "two dice and a magnifying glass; host-sim/scenes/dice.nff",
+        build: Build::Nff(include_str!("../../../scenes/dice.nff")),
+    },
+    Demo {
+        name: "chess",
+        about: "king, bishop, rook and pawns on a board; host-sim/scenes/chess.nff",
+        build: Build::Nff(include_str!("../../../scenes/chess.nff")),
     },
 ];
 
