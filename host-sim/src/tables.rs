@@ -318,6 +318,19 @@ impl<R: Real> Tables<R> {
         }
     }
 
+    /// The shapes that are not combined.
+    pub fn solids<'a>(&'a self, borrowing: &'a Borrowing<'a, R>) -> Solids<'a, R> {
+        Solids {
+            spheres: &self.spheres.shapes,
+            triangles: Triangles { triangles: &self.triangles, normals: &self.normals },
+            polygons: &borrowing.polygons,
+            boxes: &self.boxes.shapes,
+            cylinders: &self.cylinders.shapes,
+            cones: &self.cones.shapes,
+            planes: &self.planes.shapes,
+        }
+    }
+
     /// The scene that the core traces.
     ///
     /// # Errors
@@ -328,16 +341,7 @@ impl<R: Real> Tables<R> {
     ) -> Result<Scene<'a, R, HostShapes<'a, R>>, TableError> {
         let refused = |error| TableError::Combined { id: None, why: PartError::Csg(error) };
         let combined = self.parts.combined(&borrowing.polyhedra).map_err(refused)?;
-        let solids = Solids {
-            spheres: &self.spheres.shapes,
-            triangles: Triangles { triangles: &self.triangles, normals: &self.normals },
-            polygons: &borrowing.polygons,
-            boxes: &self.boxes.shapes,
-            cylinders: &self.cylinders.shapes,
-            cones: &self.cones.shapes,
-            planes: &self.planes.shapes,
-        };
-        Scene::new((combined, solids))
+        Scene::new((combined, self.solids(borrowing)))
             .and_then(|scene| scene.painted(&self.materials, &self.paint))
             .and_then(|scene| scene.lit(&self.lights, self.background))
             .map_err(|error| match error {

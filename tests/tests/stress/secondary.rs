@@ -8,7 +8,7 @@ use kibiray::accel::{Accel, Any, Kind, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
 use kibiray::num::Vector;
-use kibiray::scene::{Camera, Shapes};
+use kibiray::scene::{Camera, Scene, Shapes};
 use kibiray::trace::{Settings, Tracer};
 use kibiray_host_sim::description::load::load;
 use kibiray_host_sim::description::{Description, Solid};
@@ -48,6 +48,7 @@ pub(super) fn scaled(mut description: Description, by: f64) -> Description {
                 scale(hi);
             }
             Solid::Plane { point, .. } => scale(point),
+            Solid::Csg { .. } => panic!("no combined solids in these scenes"),
         }
     }
     description.lights.iter_mut().for_each(|light| scale(&mut light.position));
@@ -74,7 +75,8 @@ fn scene<R: Tested>(name: &str, paths: usize, scale: f64) -> Tally {
     let description = scaled(load(name).unwrap(), scale);
     let tables = Tables::<R>::new(&description).unwrap();
     let polygons = tables.polygons();
-    let scene = tables.scene(&polygons).unwrap();
+    let solids = tables.solids(&polygons);
+    let scene = Scene::new(solids).unwrap();
     let mut court = Court::new(&scene);
     let mut memory = Memory::new(BYTES);
     let mut arena = Arena::new(memory.bytes(BYTES));
@@ -83,7 +85,7 @@ fn scene<R: Tested>(name: &str, paths: usize, scale: f64) -> Tally {
     let camera = Camera::new(tables.view(), R::ONE).unwrap();
     let shapes = scene.shapes();
     let flat_from = shapes.spheres.len();
-    let flat_to = flat_from + shapes.triangles.triangles.len() + polygons.len();
+    let flat_to = flat_from + shapes.triangles.triangles.len() + shapes.polygons.len();
     for _ in 0..paths {
         let [x, y] = [0, 1].map(|_: i32| R::from_f64(random.signed()));
         let Some(mut ray) = camera.ray(x, y) else { continue };
