@@ -127,7 +127,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         loop {
             let weight = now.weight;
             let (seen, goes_on) = self.follow(&mut now, later, probe);
-            color = color + seen * weight;
+            color = R::at(color, seen, weight);
             if !goes_on {
                 let Some(next) = later.pop() else { return color };
                 now = next;
@@ -156,7 +156,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
             return (scene.background(), false);
         };
         let material = scene.material(hit.id);
-        let origin = surface.point + surface.normal * surface.error;
+        let origin = R::at(surface.point, surface.normal, surface.error);
         let mirrored = if material.specular > R::ZERO || material.transmission > R::ZERO {
             mirrored(now.ray.direction(), &surface)
         } else {
@@ -209,7 +209,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 fn mirrored<R: Real>(direction: Vec3<R>, surface: &Surface<R>) -> Vec3<R> {
     let mirror = |n: Vec3<R>| {
         let along = R::narrow(direction.dot(n));
-        direction - n * (along + along)
+        R::at(direction, n, -(along + along))
     };
     let mirrored = mirror(surface.shading);
     if mirrored.dot(surface.normal) < R::Wide::default() {

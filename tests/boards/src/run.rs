@@ -5,7 +5,7 @@ use crate::clock::{self, Stopwatch};
 use crate::report::{ArenaUse, Report};
 use crate::{report, stack};
 use kibiray::accel::octree::StoppedBy;
-use kibiray::accel::{Accel, BuildError, Mailbox, mailbox};
+use kibiray::accel::{Accel, Mailbox, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
 use kibiray::num::Real;

@@ -54,15 +54,13 @@ static FLOOR: [Plane<f32>; 1] = [Plane::new(V::ZERO, V::Y)];
 static SURFACES: [Material<f32>; 5] = MATERIALS;
 static LIGHTS: [Light<f32>; 1] = [LIGHT];
 
-pub(crate) const PAINT: [Paint; 5] = [
+pub(crate) static PAINT: [Paint; 5] = [
     Paint { first: 0, material: 0 },
     Paint { first: 1, material: 1 },
     Paint { first: 2, material: 2 },
     Paint { first: 3, material: 3 },
     Paint { first: 4, material: 4 },
 ];
-
-static RUNS: [Paint; 5] = PAINT;
 
 impl Subject for Card {
     const NAME: &'static str = "card";
@@ -73,7 +71,7 @@ impl Subject for Card {
     type Shapes = (&'static [Sphere<f32>], &'static [Plane<f32>]);
 
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
-        Scene::new((&BALLS[..], &FLOOR[..]))?.painted(&SURFACES, &RUNS)?.lit(&LIGHTS, SKY)
+        Scene::new((&BALLS[..], &FLOOR[..]))?.painted(&SURFACES, &PAINT)?.lit(&LIGHTS, SKY)
     }
 
     fn view() -> View<f32> {

@@ -43,7 +43,7 @@ pub(crate) const COUNT: usize = 512;
 /// The square root of `COUNT`: sizes shrink with it, so that as much of the view is covered.
 const ROOT: f32 = 22.627_417;
 
-pub(crate) const SPHERES: [Sphere<f32>; COUNT] = {
+pub(crate) static SPHERES: [Sphere<f32>; COUNT] = {
     let mut random = Xorshift(0x1234_5678);
     let mut spheres = [Sphere::new(Vec3::ZERO, 1.0); COUNT];
     let mut i = 0;
@@ -62,7 +62,7 @@ const fn near([x, y, z]: [f32; 3], random: &mut Xorshift) -> Vec3 {
     Vec3::new(x + a * SIZE, y + b * SIZE, z + c * SIZE)
 }
 
-pub(crate) const TRIANGLES: [Triangle<f32>; COUNT] = {
+pub(crate) static TRIANGLES: [Triangle<f32>; COUNT] = {
     let mut random = Xorshift(0x2345_6789);
     let mut triangles = [Triangle::new(Vec3::ZERO, Vec3::ZERO, Vec3::ZERO); COUNT];
     let mut i = 0;
@@ -75,9 +75,6 @@ pub(crate) const TRIANGLES: [Triangle<f32>; COUNT] = {
     }
     triangles
 };
-
-static BALLS: [Sphere<f32>; COUNT] = SPHERES;
-static SHARDS: [Triangle<f32>; COUNT] = TRIANGLES;
 
 /// A thousand rays from a sphere of radius 3 to points of the cube.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +122,7 @@ impl<K: Structure<f32>> Subject for Spheres<K> {
     type Shapes = &'static [Sphere<f32>];
 
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
-        Scene::new(&BALLS[..])
+        Scene::new(&SPHERES[..])
     }
 
     fn rays() -> impl Iterator<Item = Shot<f32>> {
@@ -140,7 +137,7 @@ impl<K: Structure<f32>> Subject for Triangles<K> {
     type Shapes = &'static [Triangle<f32>];
 
     fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
-        Scene::new(&SHARDS[..])
+        Scene::new(&TRIANGLES[..])
     }
 
     fn rays() -> impl Iterator<Item = Shot<f32>> {

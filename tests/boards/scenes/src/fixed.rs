@@ -8,7 +8,7 @@ use core::marker::PhantomData;
 use kibiray::geom::{Interval, Ray};
 use kibiray::num::fixed::{FarPoint, Vec3};
 use kibiray::num::{Fixed, Real, Vector};
-use kibiray::scene::{Light, Material, Paint, Pattern, Scene, SceneError, View};
+use kibiray::scene::{Light, Material, Pattern, Scene, SceneError, View};
 use kibiray::shape::{Plane, Sphere, Triangle};
 
 const fn number(x: f32) -> Fixed {
@@ -73,8 +73,6 @@ static LIGHTS: [Light<Fixed>; 1] = {
     let position = [(p.x * CARD) as f64, (p.y * CARD) as f64, (p.z * CARD) as f64];
     [Light { position: FarPoint::new(position), color: vector(card::LIGHT.color) }]
 };
-static PAINT: [Paint; 5] = card::PAINT;
-
 impl Subject for FixedCard {
     const NAME: &'static str = "fixed_card";
     const SIZE: (u16, u16) = (320, 240);
@@ -85,7 +83,7 @@ impl Subject for FixedCard {
 
     fn scene() -> Result<Scene<'static, Fixed, Self::Shapes>, SceneError> {
         let scene = Scene::new((&BALLS[..], &FLOOR[..]))?;
-        scene.painted(&SURFACES, &PAINT)?.lit(&LIGHTS, vector(card::SKY))
+        scene.painted(&SURFACES, &card::PAINT)?.lit(&LIGHTS, vector(card::SKY))
     }
 
     fn view() -> View<Fixed> {
