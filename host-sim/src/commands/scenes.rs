@@ -5,8 +5,16 @@ use std::io::{self, Write};
 use super::Usage;
 use crate::description::{demo, spd};
 
-/// Prints a generated scene as NFF.
+/// Prints a built-in scene as NFF.
 pub(super) fn print(name: &str) -> anyhow::Result<()> {
+    if let Some(demo) = demo::find(name) {
+        let Some(text) = demo.text() else {
+            let name = name.escape_debug();
+            return Err(Usage(format!("{name} is built by code and not written as NFF")).into());
+        };
+        io::stdout().lock().write_all(text.as_bytes())?;
+        return Ok(());
+    }
     let spec = name.strip_prefix("spd:").unwrap_or(name);
     let (name, size) = match spec.split_once(':') {
         Some((name, size)) => (name, Some(size)),

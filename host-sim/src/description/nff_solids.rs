@@ -314,3 +314,79 @@ fn check_normal(line: usize, normal: Triple) -> Result<(), ParseError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::nff::parse;
+    use super::*;
+    use Operator::{Difference, Intersection, Union};
+
+    /// The steps of the only primitive, spheres as their radii.
+    fn steps(text: &str) -> String {
+        let scene = parse(text).unwrap();
+        let [item] = &scene.items[..] else { panic!("{} items", scene.items.len()) };
+        let Solid::Csg { steps } = &item.solid else { panic!("{item:?}") };
+        let name = |step: &Step| match step {
+            Step::Part(Part { body: Body::Sphere { radius, .. }, map: None }) => radius.to_string(),
+            Step::Part(part) => panic!("{part:?}"),
+            Step::Join(Union) => "+".into(),
+            Step::Join(Intersection) => "*".into(),
+            Step::Join(Difference) => "-".into(),
+        };
+        steps.iter().map(name).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn blocks_become_postfix() {
+        let [a, b, c, d] = [1, 2, 3, 4].map(|r| format!("s 0 0 0 {r} "));
+        assert_eq!(steps(&format!("union {a} end")), "1");
+        assert_eq!(steps(&format!("difference {a}{b}{c}{d} end")), "1 2 - 3 - 4 -");
+        let inner = format!("difference {a} union {b}{c} end {d} end");
+        assert_eq!(steps(&inner), "1 2 3 + - 4 -");
+        let first = format!("intersection union {a}{b} end difference {c}{d} end end");
+        assert_eq!(steps(&first), "1 2 + 3 4 - *");
+        // Solids in a map are operands of what is around it.
+        let mapped = format!("difference {a} scale 2 2 2 {b} rotate 0 0 1 9 {c} end end {d} end");
+        assert_eq!(steps(&mapped), "1 4 - 6 - 4 -");
+    }
+
+    #[test]
+    fn maps_hold_for_everything_between() {
+        let solids = |text: &str| -> Vec<Solid> {
+            parse(text).unwrap().items.into_iter().map(|item| item.solid).collect()
+        };
+        let text = "translate 1 0 0 scale 2 2 2 s 1 0 0 1 f 1 0 0 1 0 0 0 1 c 0 0 0 1 0 0 1 0.5
+                    end s 0 0 0 1 box 1 1 1 0 0 0 end plane 0 0 0 0 0 2";
+        let sphere = |center, radius| Solid::Sphere { center, radius };
+        let expected = [
+            sphere([3.0, 0.0, 0.0], 2.0),
+            Solid::Cone {
+                base: [1.0, 0.0, 0.0],
+                base_radius: 2.0,
+                apex: [1.0, 0.0, 2.0],
+                apex_radius: 1.0,
+                capped: false,
+            },
+            sphere([1.0, 0.0, 0.0], 1.0),
+            Solid::Box { lo: [1.0, 0.0, 0.0], hi: [2.0, 1.0, 1.0] },
+            Solid::Plane { point: [0.0; 3], normal: [0.0, 0.0, 2.0] },
+        ];
+        assert_eq!(solids(text), expected);
+        assert_eq!(parse(text).unwrap().materials.len(), 2);
+        let text = "rotate 0 0 1 90 p 3 1 0 0 2 0 0 0 0 1 end transform 0 1 0 0 0 1 1 0 0 5 0 0
+                    s 1 2 3 1 end";
+        let vertices = vec![[0.0, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]];
+        let polygon = Solid::Polygon { vertices, normals: vec![] };
+        assert_eq!(solids(text), [polygon, sphere([8.0, 1.0, 2.0], 1.0)]);
+    }
+
+    #[test]
+    fn scenes_that_are_built_in_are_scenes() {
+        let texts: Vec<_> = super::super::demo::all().iter().filter_map(|it| it.text()).collect();
+        assert_eq!(texts.len(), 3);
+        for text in texts {
+            let scene = parse(text).unwrap();
+            assert!(scene.view.is_some() && scene.lights.len() > 1 && scene.items.len() > 5);
+        }
+    }
+}

@@ -29,6 +29,14 @@ enum Build {
 }
 
 impl Demo {
+    /// The file that it was read from.
+    pub fn text(&self) -> Option<&'static str> {
+        match self.build {
+            Build::Code(_) => None,
+            Build::Nff(text) => Some(text),
+        }
+    }
+
     /// The scene.
     pub fn describe(&self) -> Description {
         let description = match self.build {

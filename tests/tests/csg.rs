@@ -1,0 +1,275 @@
+//! Combined solids in scenes: the same answer with every structure and number type, what skipping
+//! operands saves, and what is refused.
+
+use std::fmt::Write;
+
+use kibiray::geom::{Interval, Ray, Slopes};
+use kibiray::num::{Fixed, Real, Vector};
+use kibiray::probe::Counters;
+use kibiray::scene::{Camera, Shapes};
+use kibiray_host_sim::description::load::load;
+use kibiray_host_sim::description::{Description, nff};
+use kibiray_host_sim::frame::Frame;
+use kibiray_host_sim::tables::Tables;
+use kibiray_tests::{Compared, Memory, UNLIMITED, compare, naive_answers, shots};
+
+const SHOWPIECES: [&str; 3] = ["carved", "dice", "chess"];
+
+/// Many small objects of every operator, kind of part and map.
+fn crowd() -> Description {
+    let mut rng = fastrand::Rng::with_seed(1977);
+    let mut text = String::new();
+    for i in 0..300 {
+        let mut at = || rng.f64() * 12.0 - 6.0;
+        let (x, y, z) = (at(), at(), at());
+        let (turn, scale) = (rng.f64() * 360.0, 0.3 + rng.f64() * 0.5);
+        let operator = ["union", "intersection", "difference"][i % 3];
+        let first = ["box -1 -1 -1 1 1 1", "s 0 0 0 1.2", "cone 0 0 -1 1 0 0 1 0.5"][i / 3 % 3];
+        let second = [
+            "cone -2 0 0 0.6 2 0 0 0.6",
+            "scale 1 1 2 s 0 0 0 0.7 end",
+            "rotate 1 1 1 40 box -0.5 -0.5 -2 0.5 0.5 2 end",
+            "polyhedron 4 0 0 -1 0 0 -1  1 1 1 1 1 1  -1 0 0 -1 0.2 0  0 -1 0 0 -1 0.3",
+        ][i / 9 % 4];
+        write!(
+            text,
+            "translate {x} {y} {z} rotate 1 2 3 {turn} scale {scale} {scale} {scale}\n{operator}\n\
+             {first}\n{second}\ndifference s 0.5 0 0.5 0.8 halfspace 0 0 0.4 0 0.3 -1 end\nend\n\
+             end end end\ns {y} {z} {x} 0.2\n"
+        )
+        .unwrap();
+    }
+    nff::parse(&text).unwrap()
+}
+
+fn scenes() -> Vec<(&'static str, Description)> {
+    let mut all: Vec<_> = SHOWPIECES.iter().map(|name| (*name, load(name).unwrap())).collect();
+    all.push(("crowd", crowd()));
+    all
+}
+
+fn conform<R: Real>(number: &str) {
+    let mut memory = Memory::new(UNLIMITED);
+    let mut all = Compared::default();
+    for (name, description) in scenes() {
+        let moved = Frame::of::<R>(&description).apply(&description).into_owned();
+        let tables = Tables::<R>::new(&moved).unwrap();
+        let borrowing = tables.polygons();
+        let scene = tables.scene(&borrowing).unwrap();
+        assert!(scene.shapes().0.count() > 1);
+        let shots = shots(scene.bounds(), tables.view(), 1000, 77);
+        all += compare(&format!("{number} {name}"), &scene, &shots, &mut memory);
+    }
+    println!("{number}: {all:?}");
+    assert!(all.rays >= 4000 && all.hits > all.rays / 5);
+}
+
+#[test]
+fn structures_give_the_hits_of_testing_all_in_f32() {
+    conform::<f32>("f32");
+}
+
+#[test]
+fn structures_give_the_hits_of_testing_all_in_f64() {
+    conform::<f64>("f64");
+}
+
+#[test]
+fn structures_give_the_hits_of_testing_all_in_fixed_point() {
+    conform::<Fixed>("fixed");
+}
+
+/// What rays meet, as numbers of the file: parameter and id.
+fn seen<R: Real>(description: &Description) -> Vec<Option<(f64, usize)>> {
+    let frame = Frame::of::<R>(description);
+    let moved = frame.apply(description).into_owned();
+    let tables = Tables::<R>::new(&moved).unwrap();
+    let borrowing = tables.polygons();
+    let scene = tables.scene(&borrowing).unwrap();
+    let mut rng = fastrand::Rng::with_seed(5);
+    let mut ways = Vec::new();
+    let rays: Vec<_> = (0..20_000)
+        .filter_map(|_| {
+            let mut part = |size: f64| std::array::from_fn(|_| rng.f64() * 2.0 * size - size);
+            let (from, to): ([f64; 3], [f64; 3]) = (part(9.0), part(3.0));
+            let to = std::array::from_fn(|i| to[i] - from[i]);
+            let (ray, interval, way) = frame.query::<R>(from, to, (0.0, f64::INFINITY)).ok()?;
+            ways.push(way);
+            Some((ray, interval))
+        })
+        .collect();
+    let answers = naive_answers(&scene, &rays);
+    let seen = answers.into_iter().zip(ways).map(|((hit, _), way)| {
+        hit.map(|(t, id)| (way.restore(f64::from_bits(t)), tables.file_id(id as usize)))
+    });
+    seen.collect()
+}
+
+#[test]
+fn number_types_agree() {
+    for (name, description) in scenes() {
+        let exact = seen::<f64>(&description);
+        for (number, other) in
+            [("f32", seen::<f32>(&description)), ("fixed", seen::<Fixed>(&description))]
+        {
+            assert_eq!(exact.len(), other.len());
+            let (mut hits, mut differ, mut worst) = (0, 0, 0.0_f64);
+            for pair in exact.iter().zip(&other) {
+                match pair {
+                    // Beyond the objects, on the floor towards the horizon.
+                    (Some((t, _)), Some((other, _))) if *t > 1.5 && *other > 1.5 => {}
+                    (Some((t, id)), Some((other, other_id))) if id == other_id => {
+                        hits += 1;
+                        // At edges a ray may pass one face and meet another.
+                        if (t - other).abs() > 1e-4 {
+                            differ += 1;
+                        } else {
+                            worst = worst.max((t - other).abs());
+                        }
+                    }
+                    (None, None) => {}
+                    _ => differ += 1,
+                }
+            }
+            println!("{name} {number}: {hits} hits, {differ} differ, others by {worst:e} at most");
+            assert!(hits > 2000 && differ * 500 <= hits, "{name} {number} {hits} {differ}");
+        }
+    }
+}
+
+/// Tests of parts that the rays of a picture and their shadow rays take: of all objects whose box is
+/// met, all parts; and those that are left by skipping.
+#[test]
+fn skipping_saves_more_than_half_of_the_tests() {
+    println!("scene   rays     tests of all parts  with skipping  saved");
+    let mut total = [0, 0];
+    for name in SHOWPIECES {
+        let description = load(name).unwrap();
+        let tables = Tables::<f32>::new(&description).unwrap();
+        let borrowing = tables.polygons();
+        let scene = tables.scene(&borrowing).unwrap();
+        let combined = &scene.shapes().0;
+        let camera = Camera::new(tables.view(), 4.0 / 3.0).unwrap();
+        let (mut rays, mut all, mut left) = (0, Counters::default(), Counters::default());
+        let mut shoot = |ray: &Ray<f32>| {
+            rays += 1;
+            let slopes = Slopes::of(ray);
+            let mut nearest = f32::INFINITY;
+            for id in 0..combined.count() {
+                let bounds = combined.bounds(id).grown(ray.slack());
+                if slopes.clip(bounds.lo, bounds.hi, 0.0, nearest).is_none() {
+                    continue;
+                }
+                let window = (0.0, nearest);
+                let first = |skipping, probe: &mut Counters| {
+                    let mut first = None;
+                    combined.crossings(id, ray, window, skipping, probe, |crossing| {
+                        if first.is_none() && crossing.t > 0.0 && crossing.t <= nearest {
+                            first = Some(crossing.t);
+                        }
+                    });
+                    first
+                };
+                let (found, same) = (first(false, &mut all), first(true, &mut left));
+                assert_eq!(found, same);
+                nearest = found.unwrap_or(nearest);
+            }
+            nearest
+        };
+        for y in 0..120_i16 {
+            for x in 0..160_i16 {
+                let place = |i: i16, of: f32| (f32::from(i) + 0.5) / of * 2.0 - 1.0;
+                let Some(ray) = camera.ray(place(x, 160.0), place(y, 120.0)) else { continue };
+                let t = shoot(&ray);
+                for light in description.lights.iter().filter(|_| t.is_finite()) {
+                    let from = ray.at(t * 0.9999);
+                    let to = glam::Vec3::from_f64(light.position);
+                    if let Ok(shadow) = Ray::new(from, to - from) {
+                        shoot(&shadow);
+                    }
+                }
+            }
+        }
+        let (all, left) = (all.primitive_tests, left.primitive_tests);
+        println!("{name:<8}{rays:<9}{all:<20}{left:<15}{:.1} times", all as f64 / left as f64);
+        assert!(rays > 20_000 && left < all, "{name} {all} {left}");
+        total = [total[0] + all, total[1] + left];
+    }
+    let [all, left] = total;
+    println!("all              {all:<20}{left:<15}{:.1} times", all as f64 / left as f64);
+    assert!(left * 2 <= all, "{all} {left}");
+}
+
+#[test]
+fn what_makes_no_object_is_refused_by_its_id() {
+    let refused =
+        |text: &str| Tables::<f32>::new(&nff::parse(text).unwrap()).unwrap_err().to_string();
+    for (text, why) in [
+        (
+            "s 0 0 0 1 intersection s 0 0 0 1 s 5 0 0 1 end",
+            "primitive 1: nothing is left of it: what it intersects does not meet",
+        ),
+        (
+            "union s 0 0 0 1 end union s 0 0 0 1 halfspace 0 0 0 0 0 1 end",
+            "primitive 1: it has no end: a halfspace is not cut on all sides",
+        ),
+        (
+            "s 0 0 0 1 s 1 0 0 1 polyhedron 4 0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 0 1 1 1 1 1 1",
+            "primitive 2: a part: a polyhedron needs faces on every side",
+        ),
+        (
+            "difference s 0 0 0 1 box 1 1 1 1 1 1 end",
+            "primitive 0: a part: it has no surface: a radius, length or area is zero or vanishes \
+             in products",
+        ),
+        (
+            "box 0 0 0 1 1 1 scale 1 1e-30 1 s 0 0 0 1 end",
+            "primitive 1: a part: a coordinate or radius is not finite, or too great to compute with",
+        ),
+    ] {
+        assert_eq!(refused(text), why, "{text}");
+    }
+    let many = format!("s 0 0 0 1 union {} end", "s 0 0 0 1 ".repeat(257));
+    assert_eq!(refused(&many), "primitive 1: 257 parts, at most 256 can be combined");
+    let fits = format!("union {} end", "s 0 0 0 1 ".repeat(256));
+    assert!(Tables::<f32>::new(&nff::parse(&fits).unwrap()).is_ok());
+    let full = "scale 1 1 2 s 0 0 0 1 end ".repeat(65_537);
+    assert_eq!(refused(&full), "combined solids: 65537 steps where at most 65536 can be numbered");
+}
+
+#[test]
+fn a_query_anywhere_sees_the_normal_out_of_what_is_left() {
+    // The classic: a cube and a ball without a bore along z.
+    let text = "difference intersection box -1 -1 -1 1 1 1 s 0 0 0 1.35 end
+                cone 0 0 -2 0.5 0 0 2 0.5 end";
+    let tables = Tables::<f32>::new(&nff::parse(text).unwrap()).unwrap();
+    let borrowing = tables.polygons();
+    let scene = tables.scene(&borrowing).unwrap();
+    for (o, d, expected) in [
+        // On the cube, on the ball, in the bore; along the bore nothing.
+        ([0.7, 0.1, 5.0], [0.0, 0.0, -1.0], Some((4.0, [0.0, 0.0, 1.0]))),
+        ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], Some((0.5, [-1.0, 0.0, 0.0]))),
+        ([3.0, 3.0, 0.0], [-1.0, -1.0, 0.0], Some((2.045_406, [0.707_107, 0.707_107, 0.0]))),
+        ([0.2, 0.1, 5.0], [0.0, 0.0, -1.0], None),
+    ] {
+        let ray = Ray::<f32>::new(o.into(), d.into()).unwrap();
+        let accel = kibiray::accel::Naive::new(&scene);
+        let hit = kibiray::accel::Accel::nearest(
+            &accel,
+            &scene,
+            &ray,
+            Interval::RAY,
+            &mut kibiray::accel::mailbox::Off,
+            &mut (),
+        );
+        let found = hit.map(|hit| (hit.t, scene.surface(&ray, &hit).unwrap().normal));
+        match (found, expected) {
+            (Some((t, n)), Some((expected, normal))) => {
+                assert!(
+                    (t - expected).abs() < 1e-5 && (n - glam::Vec3::from(normal)).length() < 1e-5
+                );
+            }
+            (found, expected) => assert_eq!(found.is_none(), expected.is_none()),
+        }
+    }
+}
