@@ -1,6 +1,9 @@
 //! Helpers shared by the test programs of kibiray.
 
+mod combined;
 pub mod oracle;
+
+pub use combined::{SHOWPIECES, combined_scenes};
 
 use kibiray::accel::{
     Accel, Any, BuildError, Hit, Huge, Kind, Overlap, bvh, grid, mailbox, octree,

@@ -1,8 +1,8 @@
-//! Combined solids in scenes: the same answer with every structure and number type, what skipping
-//! operands saves, and what is refused.
+//! Combined solids in scenes: number types agree, what skipping operands saves, and what is refused.
+//! That structures agree is in `conformance`.
 
-use std::fmt::Write;
-
+use kibiray::accel::mailbox::Off;
+use kibiray::accel::{Accel, Naive};
 use kibiray::geom::{Interval, Ray, Slopes};
 use kibiray::num::{Fixed, Real, Vector};
 use kibiray::probe::Counters;
@@ -11,103 +11,32 @@ use kibiray_host_sim::description::load::load;
 use kibiray_host_sim::description::{Description, nff};
 use kibiray_host_sim::frame::Frame;
 use kibiray_host_sim::tables::Tables;
-use kibiray_tests::{Compared, Memory, UNLIMITED, compare, naive_answers, shots};
+use kibiray_tests::{SHOWPIECES, combined_scenes};
 
-const SHOWPIECES: [&str; 3] = ["carved", "dice", "chess"];
-
-/// Many small objects of every operator, kind of part and map.
-fn crowd() -> Description {
-    let mut rng = fastrand::Rng::with_seed(1977);
-    let mut text = String::new();
-    for i in 0..300 {
-        let mut at = || rng.f64() * 12.0 - 6.0;
-        let (x, y, z) = (at(), at(), at());
-        let (turn, scale) = (rng.f64() * 360.0, 0.3 + rng.f64() * 0.5);
-        let operator = ["union", "intersection", "difference"][i % 3];
-        let first = ["box -1 -1 -1 1 1 1", "s 0 0 0 1.2", "cone 0 0 -1 1 0 0 1 0.5"][i / 3 % 3];
-        let second = [
-            "cone -2 0 0 0.6 2 0 0 0.6",
-            "scale 1 1 2 s 0 0 0 0.7 end",
-            "rotate 1 1 1 40 box -0.5 -0.5 -2 0.5 0.5 2 end",
-            "polyhedron 4 0 0 -1 0 0 -1  1 1 1 1 1 1  -1 0 0 -1 0.2 0  0 -1 0 0 -1 0.3",
-        ][i / 9 % 4];
-        write!(
-            text,
-            "translate {x} {y} {z} rotate 1 2 3 {turn} scale {scale} {scale} {scale}\n{operator}\n\
-             {first}\n{second}\ndifference s 0.5 0 0.5 0.8 halfspace 0 0 0.4 0 0.3 -1 end\nend\n\
-             end end end\ns {y} {z} {x} 0.2\n"
-        )
-        .unwrap();
-    }
-    nff::parse(&text).unwrap()
-}
-
-fn scenes() -> Vec<(&'static str, Description)> {
-    let mut all: Vec<_> = SHOWPIECES.iter().map(|name| (*name, load(name).unwrap())).collect();
-    all.push(("crowd", crowd()));
-    all
-}
-
-fn conform<R: Real>(number: &str) {
-    let mut memory = Memory::new(UNLIMITED);
-    let mut all = Compared::default();
-    for (name, description) in scenes() {
-        let moved = Frame::of::<R>(&description).apply(&description).into_owned();
-        let tables = Tables::<R>::new(&moved).unwrap();
-        let borrowing = tables.polygons();
-        let scene = tables.scene(&borrowing).unwrap();
-        assert!(scene.shapes().0.count() > 1);
-        let shots = shots(scene.bounds(), tables.view(), 1000, 77);
-        all += compare(&format!("{number} {name}"), &scene, &shots, &mut memory);
-    }
-    println!("{number}: {all:?}");
-    assert!(all.rays >= 4000 && all.hits > all.rays / 5);
-}
-
-#[test]
-fn structures_give_the_hits_of_testing_all_in_f32() {
-    conform::<f32>("f32");
-}
-
-#[test]
-fn structures_give_the_hits_of_testing_all_in_f64() {
-    conform::<f64>("f64");
-}
-
-#[test]
-fn structures_give_the_hits_of_testing_all_in_fixed_point() {
-    conform::<Fixed>("fixed");
-}
-
-/// What rays meet, as numbers of the file: parameter and id.
-fn seen<R: Real>(description: &Description) -> Vec<Option<(f64, usize)>> {
+/// Where rays meet something, as parameters of the file's rays.
+fn seen<R: Real>(description: &Description) -> Vec<Option<f64>> {
     let frame = Frame::of::<R>(description);
     let moved = frame.apply(description).into_owned();
     let tables = Tables::<R>::new(&moved).unwrap();
     let borrowing = tables.polygons();
     let scene = tables.scene(&borrowing).unwrap();
     let mut rng = fastrand::Rng::with_seed(5);
-    let mut ways = Vec::new();
-    let rays: Vec<_> = (0..20_000)
-        .filter_map(|_| {
-            let mut part = |size: f64| std::array::from_fn(|_| rng.f64() * 2.0 * size - size);
-            let (from, to): ([f64; 3], [f64; 3]) = (part(9.0), part(3.0));
-            let to = std::array::from_fn(|i| to[i] - from[i]);
-            let (ray, interval, way) = frame.query::<R>(from, to, (0.0, f64::INFINITY)).ok()?;
-            ways.push(way);
-            Some((ray, interval))
-        })
-        .collect();
-    let answers = naive_answers(&scene, &rays);
-    let seen = answers.into_iter().zip(ways).map(|((hit, _), way)| {
-        hit.map(|(t, id)| (way.restore(f64::from_bits(t)), tables.file_id(id as usize)))
-    });
-    seen.collect()
+    let naive = Naive::new(&scene);
+    let mut seen = Vec::new();
+    for _ in 0..20_000 {
+        let mut part = |size: f64| std::array::from_fn(|_| rng.f64() * 2.0 * size - size);
+        let (from, to): ([f64; 3], [f64; 3]) = (part(9.0), part(3.0));
+        let to = std::array::from_fn(|i| to[i] - from[i]);
+        let (ray, interval, way) = frame.query::<R>(from, to, (0.0, f64::INFINITY)).unwrap();
+        let hit = naive.nearest(&scene, &ray, interval, &mut Off, &mut ());
+        seen.push(hit.map(|hit| way.restore(hit.t.to_f64())));
+    }
+    seen
 }
 
 #[test]
 fn number_types_agree() {
-    for (name, description) in scenes() {
+    for (name, description) in combined_scenes() {
         let exact = seen::<f64>(&description);
         for (number, other) in
             [("f32", seen::<f32>(&description)), ("fixed", seen::<Fixed>(&description))]
@@ -116,23 +45,20 @@ fn number_types_agree() {
             let (mut hits, mut differ, mut worst) = (0, 0, 0.0_f64);
             for pair in exact.iter().zip(&other) {
                 match pair {
-                    // Beyond the objects, on the floor towards the horizon.
-                    (Some((t, _)), Some((other, _))) if *t > 1.5 && *other > 1.5 => {}
-                    (Some((t, id)), Some((other, other_id))) if id == other_id => {
+                    (Some(t), Some(other)) if (t - other).abs() <= 1e-4 => {
                         hits += 1;
-                        // At edges a ray may pass one face and meet another.
-                        if (t - other).abs() > 1e-4 {
-                            differ += 1;
-                        } else {
-                            worst = worst.max((t - other).abs());
-                        }
+                        worst = worst.max((t - other).abs());
                     }
+                    // Beyond the objects, on the floor towards the horizon, where a parameter
+                    // has few digits in f32 and none in fixed point.
+                    (Some(t), other) if *t > 1.5 && other.is_none_or(|other| other > 1.5) => {}
                     (None, None) => {}
+                    // At edges a ray may pass one face and meet another.
                     _ => differ += 1,
                 }
             }
             println!("{name} {number}: {hits} hits, {differ} differ, others by {worst:e} at most");
-            assert!(hits > 2000 && differ * 500 <= hits, "{name} {number} {hits} {differ}");
+            assert!(hits > 2000 && differ * 5000 <= hits, "{name} {number} {hits} {differ}");
         }
     }
 }
@@ -240,6 +166,7 @@ fn what_makes_no_object_is_refused_by_its_id() {
 #[test]
 fn a_query_anywhere_sees_the_normal_out_of_what_is_left() {
     // The classic: a cube and a ball without a bore along z.
+    let half = std::f32::consts::FRAC_1_SQRT_2;
     let text = "difference intersection box -1 -1 -1 1 1 1 s 0 0 0 1.35 end
                 cone 0 0 -2 0.5 0 0 2 0.5 end";
     let tables = Tables::<f32>::new(&nff::parse(text).unwrap()).unwrap();
@@ -249,19 +176,11 @@ fn a_query_anywhere_sees_the_normal_out_of_what_is_left() {
         // On the cube, on the ball, in the bore; along the bore nothing.
         ([0.7, 0.1, 5.0], [0.0, 0.0, -1.0], Some((4.0, [0.0, 0.0, 1.0]))),
         ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], Some((0.5, [-1.0, 0.0, 0.0]))),
-        ([3.0, 3.0, 0.0], [-1.0, -1.0, 0.0], Some((2.045_406, [0.707_107, 0.707_107, 0.0]))),
+        ([3.0, 3.0, 0.0], [-1.0, -1.0, 0.0], Some((2.045_406, [half, half, 0.0]))),
         ([0.2, 0.1, 5.0], [0.0, 0.0, -1.0], None),
     ] {
         let ray = Ray::<f32>::new(o.into(), d.into()).unwrap();
-        let accel = kibiray::accel::Naive::new(&scene);
-        let hit = kibiray::accel::Accel::nearest(
-            &accel,
-            &scene,
-            &ray,
-            Interval::RAY,
-            &mut kibiray::accel::mailbox::Off,
-            &mut (),
-        );
+        let hit = Naive::new(&scene).nearest(&scene, &ray, Interval::RAY, &mut Off, &mut ());
         let found = hit.map(|hit| (hit.t, scene.surface(&ray, &hit).unwrap().normal));
         match (found, expected) {
             (Some((t, n)), Some((expected, normal))) => {
