@@ -105,6 +105,13 @@ pub enum Reason {
         /// Bytes there are.
         available: usize,
     },
+    /// A hierarchy does not fit, but a grid does.
+    LittleMemory {
+        /// Bytes that the smallest hierarchy takes.
+        needed: usize,
+        /// Bytes there are.
+        available: usize,
+    },
     /// A hierarchy that takes what memory it can use.
     ManyShapes {
         /// How many there are.
@@ -121,6 +128,12 @@ impl core::fmt::Display for Reason {
             }
             Self::NoMemory { needed, available } => {
                 write!(f, "the smallest structure takes {needed} bytes of {available}")
+            }
+            Self::LittleMemory { needed, available } => {
+                write!(
+                    f,
+                    "the smallest hierarchy takes {needed} bytes of {available}: a coarse grid"
+                )
             }
             Self::ManyShapes { shapes } => {
                 write!(f, "{shapes} shapes: a hierarchy as fine as the memory allows")
@@ -226,10 +239,15 @@ fn choose<R: Real, S: Shapes<R>>(
     }
     let mailbox = wishes.mailbox.unwrap_or(mailbox::Kind::Off).footprint(shapes);
     let needed = mailbox.then(accel::Any::least(accel::Kind::Bvh(0), scene)).peak;
-    if needed > budget {
-        (Structure::Naive, Reason::NoMemory { needed, available: budget })
+    if needed <= budget {
+        return (Structure::Bvh, Reason::ManyShapes { shapes });
+    }
+    let grid = accel::Kind::Grid(grid_for(scene, wishes, budget.saturating_sub(mailbox.kept)));
+    let coarse = mailbox.then(accel::Any::least(grid, scene)).peak;
+    if coarse <= budget {
+        (Structure::Grid, Reason::LittleMemory { needed, available: budget })
     } else {
-        (Structure::Bvh, Reason::ManyShapes { shapes })
+        (Structure::Naive, Reason::NoMemory { needed: coarse, available: budget })
     }
 }
 

@@ -53,6 +53,8 @@ pub enum Command {
     Trace(Trace),
     /// Render a scene in less and more memory, and plot what that costs
     Sweep(Sweep),
+    /// Measure choices against each other, in turn, round by round, and print ratios
+    Compare(Compare),
     /// Print a generated scene as NFF
     Scene {
         /// NAME or NAME:SIZE, as in `tetra:3`
@@ -171,6 +173,41 @@ pub struct Sweep {
     #[command(flatten)]
     #[allow(missing_docs)]
     pub common: Common,
+}
+
+/// `compare`.
+#[derive(Clone, Debug, Args)]
+pub struct Compare {
+    /// What against what
+    #[arg(value_enum)]
+    pub table: Table,
+    /// Scenes [default: the Standard Procedural Databases as published]
+    pub scenes: Vec<String>,
+    /// Pixels
+    #[arg(long, value_name = "WxH", default_value = "192x192", value_parser = values::size)]
+    pub size: (u16, u16),
+    /// Rounds, of which the fastest counts
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+}
+
+/// What `compare` compares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum Table {
+    #[value(help = "what the plan chooses with every fixed structure, in four sizes of memory")]
+    Plan,
+    #[value(help = "12 and 24 bytes a shape, and 64KiB for some 1,000, with unlimited memory")]
+    Budget,
+    #[value(help = "an octree's division by benefit with first in, first out")]
+    Growth,
+    #[value(help = "lists by boxes with exact ones")]
+    Overlap,
+    #[value(help = "every way to skip work with going without it")]
+    Skips,
+    #[value(help = "ways to store an octree")]
+    Stores,
 }
 
 /// `serve`.
