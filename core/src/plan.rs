@@ -242,8 +242,8 @@ fn choose<R: Real, S: Shapes<R>>(
     if needed <= budget {
         return (Structure::Bvh, Reason::ManyShapes { shapes });
     }
-    let grid = accel::Kind::Grid(grid_for(scene, wishes, budget.saturating_sub(mailbox.kept)));
-    let coarse = mailbox.then(accel::Any::least(grid, scene)).peak;
+    let cell = accel::Kind::Grid(wishes.grid([1; 3]));
+    let coarse = mailbox.then(accel::Any::least(cell, scene)).peak;
     if coarse <= budget {
         (Structure::Grid, Reason::LittleMemory { needed, available: budget })
     } else {
@@ -267,7 +267,8 @@ fn grid_for<R: Real, S: Shapes<R>>(
     wishes: &Wishes,
     room: usize,
 ) -> grid::Settings {
-    let mut cells = scene.shapes().bounded().saturating_mul(8).max(1);
+    // A cell takes two bytes at least.
+    let mut cells = scene.shapes().bounded().saturating_mul(8).min(room / 2).max(1);
     loop {
         let settings = wishes.grid(grid::resolution_for(scene, wishes.huge(), cells));
         let footprint = accel::Any::least(accel::Kind::Grid(settings), scene);
