@@ -68,6 +68,11 @@ impl Frame {
         Self { center, exponent: exponent_of(size.max(eye)), normalised: true }
     }
 
+    /// The length in the file that is 1 in this frame.
+    pub fn unit(&self) -> f64 {
+        2_f64.powi(self.exponent)
+    }
+
     fn scale(&self) -> f64 {
         2_f64.powi(-self.exponent)
     }

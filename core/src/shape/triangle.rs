@@ -48,12 +48,18 @@ impl<R: Real> Triangle<R> {
     /// as well, that is where they meet; it does not when the ray sees the triangle so nearly edge-on
     /// that the weights are mostly rounding.
     #[inline(never)]
-    fn depth(&self, ray: &Ray<R>, weights: [R::Wide; 3], depths: [R; 3]) -> Option<R> {
+    fn depth(
+        &self,
+        ray: &Ray<R>,
+        shear: &Shear<R>,
+        weights: [R::Wide; 3],
+        depths: [R; 3],
+    ) -> Option<R> {
         let t = R::mean(weights, depths);
         let [a, b, c] = self.corners;
         if R::EXACT {
             // So are the weights: the mean lies on the ray, unless `t` is out of range.
-            return settle(ray, self.bounds(), t);
+            return settle(ray, self.bounds(), t * shear.scale);
         }
         let on_triangle = Vec3::<R>::new(
             R::mean(weights, [a.x(), b.x(), c.x()]),
@@ -116,13 +122,14 @@ impl<R: Real> Shear<R> {
         }
     }
 
-    /// Where a point lies across and along the ray.
+    /// Where a point lies across and along the ray; along it, where products are dear, not yet scaled.
     #[inline]
     pub(crate) fn apply(&self, point: &Vec3<R>) -> (R, R, R) {
         let ([u, v, w], [x, y, z]) = (self.axes, self.origin);
         let z = point.pick(w).way(z);
         let (x, y) = (point.pick(u).way(x), point.pick(v).way(y));
-        (R::sheared(x, self.slope.0, z), R::sheared(y, self.slope.1, z), self.scale * z)
+        let along = if R::EXACT { z } else { self.scale * z };
+        (R::sheared(x, self.slope.0, z), R::sheared(y, self.slope.1, z), along)
     }
 
     /// The second of these coordinates alone.
@@ -193,7 +200,7 @@ impl<R: Real> Shape<R> for Triangle<R> {
             // Signs differ: outside. All zero: edge-on.
             return None;
         }
-        let t = self.depth(ray, weights, [a.2, b.2, c.2])?;
+        let t = self.depth(ray, shear, weights, [a.2, b.2, c.2])?;
         (t > min && t <= max).then_some(t)
     }
 
