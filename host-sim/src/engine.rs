@@ -56,7 +56,7 @@ pub fn wishes(options: &Common) -> Wishes {
         structure: match options.accel {
             AccelKind::Auto => None,
             // Trees are not the plan's; it only sees to the mailbox.
-            AccelKind::Naive | AccelKind::Tree => Some(Structure::Naive),
+            AccelKind::Naive | AccelKind::Tree | AccelKind::Sorted => Some(Structure::Naive),
             AccelKind::Grid => Some(Structure::Grid),
             AccelKind::Octree => Some(Structure::Octree),
             AccelKind::Bvh => Some(Structure::Bvh),

@@ -7,6 +7,7 @@
 
 pub mod commands;
 pub mod description;
+pub mod efficiency;
 pub mod engine;
 pub mod frame;
 pub mod image;

@@ -21,6 +21,7 @@ Examples:
   host-sim stats spd:balls --accel octree --max-objects 4
   host-sim trace room.nff --rays in.csv --hits out.csv
   host-sim sweep spd:balls --ram 4KiB..256KiB    how much memory is worth having, into balls.svg
+  host-sim bounds spd:tree                       which bounding solids pay for their tests
   host-sim scene tetra:3 > tetra.nff
 
 A SCENE is
@@ -55,6 +56,8 @@ pub enum Command {
     Sweep(Sweep),
     /// Measure choices against each other, in turn, round by round, and print ratios
     Compare(Compare),
+    /// Measure which bounding solids pay, by kind of bound and kind of shape
+    Bounds(Bounds),
     /// Print a generated scene as NFF
     Scene {
         /// NAME or NAME:SIZE, as in `tetra:3`
@@ -210,6 +213,19 @@ pub enum Table {
     Stores,
 }
 
+/// `bounds`.
+#[derive(Clone, Debug, Args)]
+pub struct Bounds {
+    /// What to measure
+    pub scene: String,
+    /// The numbers to compute in
+    #[arg(long, value_enum, default_value_t = Number::F32)]
+    pub num: Number,
+    /// Also write what was measured as JSON; `-`: to standard output instead of the table
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
 /// `serve`.
 #[derive(Clone, Debug, Args)]
 pub struct Serve {
@@ -322,6 +338,8 @@ pub enum AccelKind {
     Bvh,
     #[value(help = "a tree of bounds, see --bound")]
     Tree,
+    #[value(help = "a list of bounds, those that a ray hits sorted; see --bound")]
+    Sorted,
 }
 
 /// `--bound`.
@@ -467,8 +485,7 @@ impl Common {
             || self.growth.is_some()
             || self.store.is_some()
             || self.walk.is_some_and(|walk| !walk.is_of_tree());
-        let tree = self.bound.is_some()
-            || self.builder.is_some()
+        let tree = self.builder.is_some()
             || self.insertion.is_some()
             || self.seed.is_some()
             || self.walk.is_some_and(Walk::is_of_tree);
@@ -483,8 +500,11 @@ impl Common {
                 "--max-objects, --max-level, --store and --walk are only for --accel octree".into(),
             );
         }
+        if self.bound.is_some() && !matches!(self.accel, AccelKind::Tree | AccelKind::Sorted) {
+            return Err("--bound is only for --accel tree and sorted".into());
+        }
         if tree && self.accel != AccelKind::Tree {
-            return Err("--bound, --builder, --insertion, --seed and --walk ordered, heap or stored are only for --accel tree".into());
+            return Err("--builder, --insertion, --seed and --walk ordered, heap or stored are only for --accel tree".into());
         }
         if self.seed.is_some() && self.insertion.is_some_and(|it| it != InsertionKind::Shuffled) {
             return Err("--seed is only for --insertion shuffled".into());

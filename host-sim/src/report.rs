@@ -122,6 +122,7 @@ impl AccelReport {
         let report = match accel {
             Structure::Planned(accel) => Self::planned(accel),
             Structure::Tree(tree) => Self::tree(tree),
+            Structure::Sorted(list) => Self { kind: "sorted", ..Self::tree(list) },
         };
         Self { mailbox, ..report }
     }

@@ -16,6 +16,8 @@ pub enum Structure<'m, R: Real> {
     Planned(Any<'m, R>),
     /// A tree of bounds.
     Tree(AnyTree<'m, R>),
+    /// A list of bounds.
+    Sorted(AnyTree<'m, R>),
 }
 
 impl<'m, R: Real> Structure<'m, R> {
@@ -33,6 +35,11 @@ impl<'m, R: Real> Structure<'m, R> {
             AccelKind::Tree => {
                 let (bound, settings) = (bound(options), tree_settings(options));
                 Self::Tree(AnyTree::build(bound, scene, settings, arena)?)
+            }
+            AccelKind::Sorted => {
+                let settings =
+                    tree::Settings { builder: tree::Builder::List, ..Default::default() };
+                Self::Sorted(AnyTree::build(bound(options), scene, settings, arena)?)
             }
             _ => Self::Planned(Any::build(planned, scene, arena)?),
         })
@@ -75,7 +82,7 @@ impl<R: Real> Accel<R> for Structure<'_, R> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         match self {
             Self::Planned(accel) => accel.walk(ray, visitor),
-            Self::Tree(tree) => tree.walk(ray, visitor),
+            Self::Tree(tree) | Self::Sorted(tree) => tree.walk(ray, visitor),
         }
     }
 }

@@ -3,10 +3,14 @@
 
 use kibiray::accel::Accel;
 use kibiray::accel::mailbox::Off;
-use kibiray::accel::tree::{AnyTree, Builder, Insertion, Kind, Settings, Walk};
+use kibiray::accel::tree::{
+    AnyTree, Builder, InsertError, Insertion, Kind, Settings, Tree, Walk, footprint,
+};
+use kibiray::geom::Aabb;
 use kibiray::memory::Arena;
-use kibiray::num::{Fixed, Real};
+use kibiray::num::{Fixed, Real, Vec3};
 use kibiray::scene::{Scene, Shapes};
+use kibiray::shape::Sphere;
 use kibiray_host_sim::description::load::load;
 use kibiray_host_sim::frame::Frame;
 use kibiray_host_sim::tables::Tables;
@@ -24,6 +28,7 @@ fn settings() -> Vec<Settings> {
         (Builder::RTree(Insertion::Shuffled(0)), Walk::Ordered),
         (Builder::RTree(Insertion::File), Walk::Heap),
         (Builder::Sah, Walk::Ordered),
+        (Builder::List, Walk::Ordered),
     ]
     .map(|(builder, walk)| Settings { builder, walk })
     .into()
@@ -43,7 +48,7 @@ fn answers<R: Real, S: Shapes<R>>(
     shots.iter().map(answer).collect()
 }
 
-/// Every tree is asked for one ray in so many: with 36 trees every ray is put to three.
+/// Every tree is asked for one ray in so many: with 42 trees every ray is put to three or four.
 const EACH: usize = 12;
 
 /// Compares all trees with testing all shapes; gives the number of hits.
@@ -120,4 +125,90 @@ fn trees_give_the_hits_of_testing_all_in_f64() {
 #[test]
 fn trees_give_the_hits_of_testing_all_in_fixed_point() {
     conform::<Fixed>("fixed", rays_per_scene());
+}
+
+#[test]
+fn trees_are_refitted_when_shapes_move() {
+    let mut rng = fastrand::Rng::with_seed(11);
+    let mut memory = Memory::new(UNLIMITED);
+    let worlds: Vec<_> =
+        (0..4).map(|_| World::random(&mut rng, 20, [0.1, 0.0, -0.2], 0.6)).collect();
+    for kind in Kind::ALL {
+        for settings in settings() {
+            let mut arena = Arena::new(memory.bytes(UNLIMITED));
+            let tables = worlds[0].tables::<f32>();
+            let polygons = tables.polygons();
+            let scene = tables.scene(&polygons);
+            let mut tree = AnyTree::build(kind, &scene, settings, &mut arena).unwrap();
+            let fresh = tree.summary();
+            for (i, world) in worlds.iter().enumerate().rev() {
+                let tables = world.tables::<f32>();
+                let polygons = tables.polygons();
+                let scene = tables.scene(&polygons);
+                assert_eq!(scene.shapes().bounded(), 120);
+                tree.refit(&scene);
+                let shots = shots(scene.bounds(), &view_of(scene.bounds()), 2000, i as u64);
+                let expected = naive_answers(&scene, &shots);
+                assert_eq!(answers(&tree, &scene, &shots), expected, "{kind:?} {settings:?}");
+                if i > 0 && kind == Kind::Box && settings.builder == Builder::Sah {
+                    // The links are those of other places.
+                    assert!(tree.summary().cost.bounds > fresh.cost.bounds);
+                }
+            }
+            // Back where they were, boxes are as they were.
+            if kind == Kind::Box {
+                assert_eq!(tree.summary(), fresh, "{settings:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn shapes_are_inserted_while_rays_are_shot() {
+    let mut rng = fastrand::Rng::with_seed(12);
+    // The first one is around all others: every scene of the first few has the same bounds.
+    let mut place = || Vec3::<f32>::from_array([0, 1, 2].map(|_| rng.f32() - 0.5));
+    let mut spheres = vec![Sphere::<f32>::new(Vec3::<f32>::default(), 2.0)];
+    spheres.extend((1..60).map(|i| Sphere::new(place(), 0.01 * (i % 9 + 1) as f32)));
+    let scene = Scene::new(&spheres[..]).unwrap();
+    let bytes = footprint::<f32, Aabb<f32>, u16>(40, Builder::default()).peak;
+    let mut memory = Memory::new(bytes);
+    let mut arena = Arena::new(memory.bytes(bytes));
+    let mut tree = Tree::<f32, Aabb<f32>, u16>::empty(40, Walk::Ordered, &mut arena).unwrap();
+    let shots = shots(scene.bounds(), &view_of(scene.bounds()), 2000, 3);
+    for id in 0..60 {
+        let inserted = tree.insert(&scene, id);
+        if id >= 40 {
+            assert_eq!(inserted, Err(InsertError::Full { id, capacity: 40 }));
+            continue;
+        }
+        assert_eq!(inserted, Ok(()));
+        assert_eq!(tree.insert(&scene, id), Err(InsertError::Present { id }));
+        assert_eq!(tree.shapes(), id + 1);
+        let so_far = Scene::new(&spheres[..=id]).unwrap();
+        assert_eq!(answers(&tree, &scene, &shots), naive_answers(&so_far, &shots), "{id}");
+    }
+    let none = tree.insert(&scene, 60);
+    assert_eq!(none, Err(InsertError::NoShape { id: 60, shapes: 60 }));
+}
+
+#[test]
+fn bounds_that_do_not_pay_can_be_left_out() {
+    let mut rng = fastrand::Rng::with_seed(13);
+    let mut memory = Memory::new(UNLIMITED);
+    let world = World::random(&mut rng, 30, [0.2, 0.0, 0.1], 0.5);
+    let tables = world.tables::<f32>();
+    let polygons = tables.polygons();
+    let scene = tables.scene(&polygons);
+    let shots = shots(scene.bounds(), &view_of(scene.bounds()), 3000, 9);
+    let expected = naive_answers(&scene, &shots);
+    for kind in Kind::ALL {
+        for settings in settings() {
+            let mut arena = Arena::new(memory.bytes(UNLIMITED));
+            let mut tree = AnyTree::build(kind, &scene, settings, &mut arena).unwrap();
+            let paying = tree.keep_paying(|id, p| p > 0.0 && id % 3 == 0);
+            assert_eq!(paying, 60, "{kind:?} {settings:?}");
+            assert_eq!(answers(&tree, &scene, &shots), expected, "{kind:?} {settings:?}");
+        }
+    }
 }

@@ -5,12 +5,17 @@
 //! greatest coordinate; the parameter at which a ray meets a side is the product of a difference of
 //! at most six such coordinates, rounded, with a rounded reciprocal: 5 units.
 
+use super::slab::{Course, courses, cut_by_box};
 use super::{Bound, Fitted, Region, Stored, shrunk};
-use crate::geom::{Aabb, Ray, Slopes};
+use crate::geom::{Aabb, Ray};
 use crate::num::{Real, Vec3, Vector};
 
+/// What boxes want to know of a ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Courses<R: Real>([Course<R>; 3]);
+
 impl<R: Real> Bound<R> for Aabb<R> {
-    type PerRay = Slopes<R>;
+    type PerRay = Courses<R>;
 
     fn half_area(&self) -> R {
         let size = self.size();
@@ -22,13 +27,17 @@ impl<R: Real> Bound<R> for Aabb<R> {
         self.lo * R::HALF + self.hi * R::HALF
     }
 
-    fn per_ray(ray: &Ray<R>) -> Slopes<R> {
-        Slopes::of(ray)
+    fn per_ray(ray: &Ray<R>) -> Courses<R> {
+        Courses(courses(ray))
     }
 
     #[inline]
-    fn enter(&self, slopes: &Slopes<R>, start: R, limit: R) -> Option<R> {
-        slopes.clip(self.lo, self.hi, start, limit).map(|(enter, _)| enter)
+    fn enter(&self, Courses(courses): &Courses<R>, start: R, limit: R) -> Option<R> {
+        // Nothing is hit where there is nothing between the two.
+        if !(start <= limit) {
+            return None;
+        }
+        cut_by_box::<R>((start, limit), courses, self.lo, self.hi).map(|(enter, _)| enter)
     }
 }
 

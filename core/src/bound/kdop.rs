@@ -14,8 +14,9 @@
 //! the diagonal with the ray's origin and direction, the parameter of a side and the side itself are
 //! off by 4, 5, 13 and 15 (10, 8, 19 and 25).
 
+use super::slab::{Course, courses, cut, cut_by_box};
 use super::{Bound, Fitted, Region, Stored, shrunk};
-use crate::geom::{Aabb, Ray, Slopes};
+use crate::geom::{Aabb, Ray};
 use crate::num::{Axis, Real, Reciprocal, Vec3, Vector};
 
 /// Signs of a diagonal's components.
@@ -106,9 +107,8 @@ fn along<R: Real>(signs: &Signs, v: Vec3<R>) -> R {
 /// What k-dops want to know of a ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Lines<R: Real> {
-    slopes: Slopes<R>,
-    /// Along each diagonal: where the ray starts, and the reciprocal of how it goes on.
-    diagonals: [(R, R::Reciprocal); DIAGONALS.len()],
+    axes: [Course<R>; 3],
+    diagonals: [Course<R>; DIAGONALS.len()],
 }
 
 impl<R: Real, const K: usize> Bound<R> for KDop<R, K> {
@@ -148,29 +148,19 @@ impl<R: Real, const K: usize> Bound<R> for KDop<R, K> {
             let step = along::<R>(signs, ray.direction());
             *line = (along::<R>(signs, ray.origin()), R::Reciprocal::of(step));
         }
-        Lines { slopes: Slopes::of(ray), diagonals }
+        Lines { axes: courses(ray), diagonals }
     }
 
     #[inline]
     fn enter(&self, lines: &Lines<R>, start: R, limit: R) -> Option<R> {
         let aabb = self.aabb();
-        let (mut enter, mut leave) = lines.slopes.clip(aabb.lo, aabb.hi, -R::MAX, R::MAX)?;
-        let found = enter.max(start);
-        if !(found <= leave.min(limit)) {
+        let mut part = cut_by_box::<R>((-R::MAX, R::MAX), &lines.axes, aabb.lo, aabb.hi)?;
+        let found = part.0.max(start);
+        if !(found <= part.1.min(limit)) {
             return None;
         }
-        for ((origin, inverse), (_, [lo, hi])) in lines.diagonals.iter().zip(self.diagonals()) {
-            let (near, far) = match inverse.sign() {
-                0 if *origin >= *lo && *origin <= *hi => continue,
-                0 => return None,
-                1 => (*lo, *hi),
-                _ => (*hi, *lo),
-            };
-            enter = enter.max(inverse.times(near - *origin));
-            leave = leave.min(inverse.times(far - *origin));
-            if !(enter <= leave) {
-                return None;
-            }
+        for (course, (_, slab)) in lines.diagonals.iter().zip(self.diagonals()) {
+            part = cut::<R>(part, *course, *slab)?;
         }
         Some(found)
     }

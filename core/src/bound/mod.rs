@@ -21,8 +21,10 @@ mod kdop;
 mod oriented;
 mod pair;
 mod region;
+mod slab;
 mod sphere;
 
+pub use aabb::Courses;
 pub use kdop::{KDop, Lines};
 pub use oriented::OrientedBox;
 pub use pair::{Intersection, Union};

@@ -9,6 +9,7 @@
 //! outside; the products of an axis with origin and direction and the parameter of a side are off by
 //! 45, and the side itself by 20. It is moved by 256.
 
+use super::slab::cut;
 use super::{Bound, Fitted, Region, Stored, shrunk};
 use crate::geom::Ray;
 use crate::num::{Axis, Real, Reciprocal, Vec3, Vector};
@@ -102,23 +103,15 @@ impl<R: Real> Bound<R> for OrientedBox<R> {
 
     #[inline]
     fn enter(&self, ray: &Ray<R>, start: R, limit: R) -> Option<R> {
-        let (mut enter, mut leave) = (start, limit);
-        for (axis, [lo, hi]) in self.axes.iter().zip(self.sides) {
-            let origin = R::narrow(axis.dot(ray.origin()));
-            let inverse = R::Reciprocal::of(R::narrow(axis.dot(ray.direction())));
-            let (near, far) = match inverse.sign() {
-                0 if origin >= lo && origin <= hi => continue,
-                0 => return None,
-                1 => (lo, hi),
-                _ => (hi, lo),
-            };
-            enter = enter.max(inverse.times(near - origin));
-            leave = leave.min(inverse.times(far - origin));
-            if !(enter <= leave) {
-                return None;
-            }
+        if !(start <= limit) {
+            return None;
         }
-        (enter <= leave).then_some(enter)
+        let mut part = (start, limit);
+        for (axis, slab) in self.axes.iter().zip(self.sides) {
+            let step = R::Reciprocal::of(R::narrow(axis.dot(ray.direction())));
+            part = cut::<R>(part, (R::narrow(axis.dot(ray.origin())), step), slab)?;
+        }
+        Some(part.0)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The commands, and how they end.
 
+mod bounds;
 mod compare;
 mod render;
 mod scenes;
@@ -41,6 +42,7 @@ pub fn main() -> ExitCode {
         Some(Command::Trace(options)) => trace::run(&options),
         Some(Command::Sweep(options)) => sweep::run(&options),
         Some(Command::Compare(options)) => compare::run(&options),
+        Some(Command::Bounds(options)) => bounds::run(&options),
         Some(Command::Scene { name }) => scenes::print(&name),
         Some(Command::Scenes) => scenes::list(),
         Some(Command::Serve(options)) => serve::run(&options),

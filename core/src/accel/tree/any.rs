@@ -7,8 +7,10 @@ use crate::bound::{KDop, OrientedBox, Stored};
 use crate::geom::{Aabb, Ray};
 use crate::memory::{Arena, Footprint};
 use crate::num::Real;
+use crate::probe::Probe;
 use crate::scene::{Scene, Shapes};
 use crate::shape::Sphere;
+use core::ops::Range;
 
 /// The kinds of bounds that a tree can consist of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,10 +66,17 @@ impl<'m, R: Real, B: Stored<R>> Widths<'m, R, B> {
         }
     }
 
-    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+    fn walk(&self, ray: &Ray<R>, visitor: &mut Erased<'_, R>) {
         match self {
             Self::Small(tree) => tree.walk(ray, visitor),
             Self::Large(tree) => tree.walk(ray, visitor),
+        }
+    }
+
+    fn keep_paying(&mut self, pays: impl FnMut(usize, R) -> bool) -> usize {
+        match self {
+            Self::Small(tree) => tree.keep_paying(pays),
+            Self::Large(tree) => tree.keep_paying(pays),
         }
     }
 
@@ -154,6 +163,18 @@ impl<'m, R: Real> AnyTree<'m, R> {
         }
     }
 
+    /// As [`Tree::keep_paying`].
+    pub fn keep_paying(&mut self, pays: impl FnMut(usize, R) -> bool) -> usize {
+        match self {
+            Self::Box(tree) => tree.keep_paying(pays),
+            Self::Sphere(tree) => tree.keep_paying(pays),
+            Self::Oriented(tree) => tree.keep_paying(pays),
+            Self::KDop14(tree) => tree.keep_paying(pays),
+            Self::KDop18(tree) => tree.keep_paying(pays),
+            Self::KDop26(tree) => tree.keep_paying(pays),
+        }
+    }
+
     /// As [`Tree::refit`].
     pub fn refit<S: Shapes<R>>(&mut self, scene: &Scene<'_, R, S>) {
         match self {
@@ -181,6 +202,7 @@ impl<'m, R: Real> AnyTree<'m, R> {
 
 impl<R: Real> Accel<R> for AnyTree<'_, R> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        let visitor = &mut Erased(visitor);
         match self {
             Self::Box(tree) => tree.walk(ray, visitor),
             Self::Sphere(tree) => tree.walk(ray, visitor),
@@ -189,5 +211,68 @@ impl<R: Real> Accel<R> for AnyTree<'_, R> {
             Self::KDop18(tree) => tree.walk(ray, visitor),
             Self::KDop26(tree) => tree.walk(ray, visitor),
         }
+    }
+}
+
+/// A visitor as a tree sees it, whatever it looks for and however it counts: so there is one walk for
+/// every kind of tree, and not one for every kind of query besides.
+trait Seeker<R> {
+    fn from(&self) -> R;
+    fn to(&self) -> R;
+    fn meet(&mut self, id: usize);
+    fn meet_range(&mut self, ids: Range<usize>);
+    fn count_step(&mut self);
+    fn count_leaf(&mut self, empty: bool);
+}
+
+impl<R: Real, V: Visitor<R>> Seeker<R> for V {
+    fn from(&self) -> R {
+        self.start()
+    }
+    fn to(&self) -> R {
+        self.limit()
+    }
+    fn meet(&mut self, id: usize) {
+        self.visit(core::iter::once(id));
+    }
+    fn meet_range(&mut self, ids: Range<usize>) {
+        self.visit_range(ids);
+    }
+    fn count_step(&mut self) {
+        self.probe().step();
+    }
+    fn count_leaf(&mut self, empty: bool) {
+        self.probe().leaf(empty);
+    }
+}
+
+struct Erased<'v, R>(&'v mut dyn Seeker<R>);
+
+impl<R> Probe for Erased<'_, R> {
+    fn step(&mut self) {
+        self.0.count_step();
+    }
+    fn leaf(&mut self, empty: bool) {
+        self.0.count_leaf(empty);
+    }
+}
+
+impl<R: Real> Visitor<R> for Erased<'_, R> {
+    type Probe = Self;
+
+    fn start(&self) -> R {
+        self.0.from()
+    }
+    fn limit(&self) -> R {
+        self.0.to()
+    }
+    fn visit(&mut self, ids: impl Iterator<Item = usize>) {
+        ids.for_each(|id| self.0.meet(id));
+    }
+    fn visit_range(&mut self, ids: Range<usize>) {
+        self.0.meet_range(ids);
+    }
+    fn probe(&mut self) -> &mut Self {
+        self
     }
 }

@@ -147,7 +147,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
         }
         self.pad = self.pad.max(scene.pad());
         self.set_volume(id, B::around(&scene.shapes().region(id), self.pad));
-        self.links.mark_leaf(id);
+        self.links.mark_leaf(id, false);
         Ok(id)
     }
 

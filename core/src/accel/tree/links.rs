@@ -18,8 +18,8 @@ pub(super) enum Next {
 /// The links of all nodes.
 #[derive(Debug)]
 pub(super) struct Links<'m, I> {
-    /// Where its children begin (of a leaf: 1 if it is in the tree, otherwise 0), and what follows:
-    /// twice its number, and 1 more for a parent.
+    /// Where its children begin (of a leaf: 0 if it is not in the tree, 1 if it is, 2 if its bound
+    /// does not pay), and what follows: twice its number, and 1 more for a parent.
     nodes: &'m mut [[I; 2]],
     capacity: usize,
     shapes: usize,
@@ -76,9 +76,22 @@ impl<'m, I: Id> Links<'m, I> {
         self.is_leaf(leaf) && self.first(leaf) != 0
     }
 
-    /// Puts a leaf into use.
-    pub(super) fn mark_leaf(&mut self, leaf: usize) {
-        self.set_first(leaf, 1);
+    /// Puts a leaf into use, with a bound or bare.
+    pub(super) fn mark_leaf(&mut self, leaf: usize, bare: bool) {
+        self.set_first(leaf, 1 + usize::from(bare));
+    }
+
+    /// Whether a node is a leaf whose bound is not worth a test.
+    pub(super) fn is_bare(&self, node: usize) -> bool {
+        self.is_leaf(node) && self.first(node) == 2
+    }
+
+    /// The next child of the same node.
+    pub(super) fn sibling(&self, node: usize) -> Option<usize> {
+        match self.next(node) {
+            Next::Sibling(next) => Some(next),
+            Next::Parent(_) => None,
+        }
     }
 
     /// Counts a leaf that has found its place.
@@ -123,11 +136,7 @@ impl<'m, I: Id> Links<'m, I> {
     /// The children of a node.
     pub(super) fn children(&self, node: usize) -> impl Iterator<Item = usize> {
         let first = (!self.is_leaf(node)).then(|| self.first(node));
-        let next = |child: &usize| match self.next(*child) {
-            Next::Sibling(child) => Some(child),
-            Next::Parent(_) => None,
-        };
-        core::iter::successors(first, next).take(self.end())
+        core::iter::successors(first, |child| self.sibling(*child)).take(self.end())
     }
 
     /// The parent of a node; nothing for the root. Time in proportion to the number of siblings.

@@ -24,6 +24,7 @@ mod any;
 mod cost;
 mod insert;
 mod links;
+mod list;
 mod order;
 mod refit;
 mod rtree;
@@ -53,6 +54,10 @@ pub enum Builder {
     /// Shape by shape, all leaves on one level: A. Guttman, "R-trees: a dynamic index structure for
     /// spatial searching", SIGMOD 1984.
     RTree(Insertion),
+    /// No hierarchy: all leaves below the root. The ordered walk is then that of sorted bounds: all
+    /// are tested, those that the ray hits are sorted by where it enters them, and the search ends
+    /// when the nearest hit lies before the next. For scenes too small for more.
+    List,
     /// All at once, cut in two where the surfaces tell to. Takes scratch for a list of the shapes.
     Sah,
 }
@@ -110,7 +115,7 @@ impl<'m, R: Real, B: Stored<R>, I: Id> Tree<'m, R, B, I> {
         let shapes = scene.shapes().bounded();
         BuildError::unless_above("shapes", shapes, Links::<I>::MOST_SHAPES)?;
         arena.require(footprint::<R, B, I>(shapes, settings.builder))?;
-        let mut tree = Self::empty(shapes, settings.walk, arena)?;
+        let mut tree = Self::with_builder(shapes, settings, arena)?;
         match settings.builder {
             // Inserting cannot fail: there is a leaf for every shape, and each comes once.
             Builder::GoldsmithSalmon(insertion) => {
@@ -123,6 +128,7 @@ impl<'m, R: Real, B: Stored<R>, I: Id> Tree<'m, R, B, I> {
                     let _ = tree.insert_in_r_tree(scene, id);
                 })?;
             }
+            Builder::List => tree.list_all(scene),
             Builder::Sah => tree.divide_all(scene, arena)?,
         }
         Ok(tree)
@@ -136,7 +142,16 @@ impl<'m, R: Real, B: Stored<R>, I: Id> Tree<'m, R, B, I> {
         BuildError::unless_above("shapes", capacity, Links::<I>::MOST_SHAPES)?;
         let builder = Builder::GoldsmithSalmon(Insertion::File);
         arena.require(footprint::<R, B, I>(capacity, builder))?;
-        let nodes = size::most_nodes(capacity);
+        Self::with_builder(capacity, Settings { builder, walk }, arena)
+    }
+
+    /// An empty tree with the nodes that a builder needs.
+    fn with_builder(
+        capacity: usize,
+        Settings { builder, walk }: Settings,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, BuildError> {
+        let nodes = size::most_nodes(capacity, builder);
         let volumes = arena.keep("tree volumes", nodes)?;
         let links = Links::new(arena.keep("tree links", nodes)?, capacity);
         Ok(Self { links, volumes, pad: R::ZERO, walk })

@@ -1,5 +1,6 @@
 //! In which order shapes are inserted.
 
+use super::sah::swap;
 use crate::accel::{BuildError, Id};
 use crate::memory::{Arena, Footprint};
 use crate::num::{Real, Vector};
@@ -48,11 +49,37 @@ pub(super) fn each<R: Real, S: Shapes<R>, I: Id>(
             for (id, place) in ids.iter_mut().enumerate() {
                 *place = I::new(id);
             }
-            ids.sort_unstable_by_key(|id| (curve_place(scene, id.get()), id.get()));
+            sort(ids, |id| (curve_place(scene, id.get()), id.get()));
             ids.iter().for_each(|id| act(id.get()));
         }
     }
     Ok(())
+}
+
+/// Sorts a list in place: J. W. J. Williams, "Algorithm 232: Heapsort", CACM 7(6), 1964. The one that
+/// comes with the language may panic.
+fn sort<T: Copy, K: PartialOrd>(list: &mut [T], key: impl Fn(T) -> K) {
+    let greater = |list: &[T], a: usize, b: usize| match (list.get(a), list.get(b)) {
+        (Some(a), Some(b)) => key(*a) > key(*b),
+        _ => false,
+    };
+    let sink = |list: &mut [T], from: usize| {
+        let mut at = from;
+        for _ in 0..usize::BITS {
+            let (left, right) = (2 * at + 1, 2 * at + 2);
+            let largest = if greater(list, right, left) { right } else { left };
+            if !greater(list, largest, at) {
+                break;
+            }
+            swap(list, at, largest);
+            at = largest;
+        }
+    };
+    (0..list.len() / 2).rev().for_each(|from| sink(list, from));
+    for last in (1..list.len()).rev() {
+        swap(list, 0, last);
+        sink(list.get_mut(..last).unwrap_or_default(), 0);
+    }
 }
 
 /// Mixes the numbers up to `mask`, all bits of which are 1; each step can be undone.
@@ -126,6 +153,18 @@ mod tests {
                 seen.sort_unstable();
                 assert!(seen.into_iter().eq(0..=mask), "{bits} bits, seed {seed}");
             }
+        }
+    }
+
+    #[test]
+    fn sorting_sorts() {
+        for count in 0..70_u32 {
+            let mut list: Vec<u32> =
+                (0..count).map(|i| i.wrapping_mul(0x9e37_79b9) >> 27).collect();
+            let mut expected = list.clone();
+            expected.sort_unstable();
+            sort(&mut list, |n| n);
+            assert_eq!(list, expected);
         }
     }
 

@@ -98,14 +98,14 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
         }
         let (a, b) = seeds(&rest);
         // The later one first, so that the other stays where it is.
-        let mut groups = [b.max(a), b.min(a)].map(|seed| {
-            let (child, volume) = rest.swap_remove(seed);
+        let Some(seeds) = take(&mut rest, b).zip(take(&mut rest, a)) else { return node };
+        let mut groups = [seeds.0, seeds.1].map(|(child, volume)| {
             let mut children: Vec<usize, { MOST + 1 }> = Vec::new();
             let _ = children.push(child);
             (children, volume)
         });
         while let Some((next, to)) = choose(&rest, &groups) {
-            let (child, volume) = rest.swap_remove(next);
+            let Some((child, volume)) = take(&mut rest, next) else { break };
             if let Some((children, bounds)) = groups.get_mut(to) {
                 let _ = children.push(child);
                 *bounds = bounds.union(volume);
@@ -120,7 +120,16 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
     }
 }
 
-/// The two that waste most together.
+/// Takes one out of a list, whose last one comes in its place.
+fn take<T: Copy, const N: usize>(list: &mut Vec<T, N>, at: usize) -> Option<T> {
+    let last = list.pop()?;
+    match list.get_mut(at) {
+        Some(place) => Some(core::mem::replace(place, last)),
+        None => Some(last),
+    }
+}
+
+/// The two that waste most together, the first one first.
 fn seeds<R: Real, B: Stored<R>>(all: &[(usize, B)]) -> (usize, usize) {
     let mut worst: Option<(R, (usize, usize))> = None;
     for (i, (_, a)) in all.iter().enumerate() {

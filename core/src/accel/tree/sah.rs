@@ -154,10 +154,10 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
                 continue;
             }
             to -= 1;
-            list.swap(from, to);
+            swap(list, from, to);
         }
         // Rounding cannot have put all on one side, but a list is never left whole.
-        Some(from.clamp(1, list.len() - 1))
+        Some(from.min(list.len() - 1).max(1))
     }
 
     /// The cut with the least sum of surface times number on both sides, over all axes.
@@ -209,6 +209,13 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
 
     fn union_of(&self, list: &[I]) -> Option<B> {
         list.iter().fold(None, |all, id| join(all, self.volume(id.get())))
+    }
+}
+
+/// Exchanges two places of a list, the first of which comes first.
+pub(super) fn swap<T>(list: &mut [T], first: usize, second: usize) {
+    if let Some([a, .., b]) = list.get_mut(first..=second) {
+        core::mem::swap(a, b);
     }
 }
 

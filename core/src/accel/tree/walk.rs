@@ -115,18 +115,21 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
         visitor.visit(core::iter::once(leaf));
     }
 
-    /// Lets the children of a node wait that the ray hits; false when there is no room.
+    /// Lets the children of a node wait that the ray hits; false when there is no room. A child
+    /// without a bound is entered where the node is.
     #[inline]
     fn wait<V: Visitor<R>>(
         &self,
-        node: usize,
+        (t, node): (R, usize),
         line: &B::PerRay,
         waiting: &mut Waiting<R>,
         visitor: &mut V,
     ) -> bool {
         let before = waiting.len;
         for child in self.links.children(node) {
-            if let Some(t) = self.enter(child, line, visitor)
+            let bare = self.links.is_bare(child);
+            let entered = if bare { Some(t) } else { self.enter(child, line, visitor) };
+            if let Some(t) = entered
                 && !waiting.push((t, child as u32))
             {
                 waiting.len = before;
@@ -142,7 +145,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
         let mut next = Some(top);
         for _ in 0..self.links.end() {
             let Some(node) = next else { return };
-            let hit = self.enter(node, line, visitor).is_some();
+            let hit = self.links.is_bare(node) || self.enter(node, line, visitor).is_some();
             if hit && self.links.is_leaf(node) {
                 Self::meet(node, visitor);
             }
@@ -162,7 +165,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
                 let before = waiting.len;
                 if self.links.is_leaf(node) {
                     Self::meet(node, visitor);
-                } else if self.wait(node, line, &mut waiting, visitor) {
+                } else if self.wait((t, node), line, &mut waiting, visitor) {
                     waiting.sort(before);
                 } else {
                     self.walk_stored(node, line, visitor);
@@ -185,7 +188,7 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
             let before = waiting.len;
             if self.links.is_leaf(node) {
                 Self::meet(node, visitor);
-            } else if self.wait(node, line, &mut waiting, visitor) {
+            } else if self.wait((t, node), line, &mut waiting, visitor) {
                 waiting.sift_up(before);
             } else {
                 self.walk_stored(node, line, visitor);
