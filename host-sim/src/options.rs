@@ -58,6 +58,8 @@ pub enum Command {
     Compare(Compare),
     /// Measure which bounding solids pay, by kind of bound and kind of shape
     Bounds(Bounds),
+    /// Measure time and errors over number formats, structures, memory and ways to sample
+    Bench(Bench),
     /// Print a generated scene as NFF
     Scene {
         /// NAME or NAME:SIZE, as in `tetra:3`
@@ -224,6 +226,47 @@ pub struct Bounds {
     /// Also write what was measured as JSON; `-`: to standard output instead of the table
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+}
+
+/// `bench`. Every list is one of values with commas between; all combinations are measured.
+#[derive(Clone, Debug, Args)]
+pub struct Bench {
+    /// What to trace
+    #[arg(default_values = ["spd:tetra:4", "spd:mount:4"])]
+    pub scenes: Vec<String>,
+    /// The numbers to compute in [default: all there are]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub num: Vec<Number>,
+    /// The structures
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "bvh,octree,grid")]
+    pub accel: Vec<AccelKind>,
+    /// The arenas
+    #[arg(long, value_name = "SIZE", value_parser = values::bytes, value_delimiter = ',')]
+    #[arg(default_value = "256KiB,16KiB")]
+    pub ram: Vec<usize>,
+    /// Ways to sample; pictures are made with the plan's structure in ample memory
+    #[arg(long, value_name = "off|N|adaptive[:T]", value_delimiter = ',')]
+    #[arg(value_parser = values::antialiasing)]
+    #[arg(default_value = "off,2,3,4,adaptive:0.3,adaptive,adaptive:0.03")]
+    pub aa: Vec<Antialiasing>,
+    /// Shares below which mirrored and refracted rays are left out
+    #[arg(long, value_name = "SHARE", value_delimiter = ',', default_value = "0,0.004,0.016")]
+    #[arg(value_parser = values::share)]
+    pub cutoff: Vec<f64>,
+    /// Pixels of the pictures
+    #[arg(long, value_name = "WxH", default_value = "64x64", value_parser = values::size)]
+    pub size: (u16, u16),
+    /// Rays along an edge of the square of queries
+    #[arg(long, value_name = "N", default_value_t = 129)]
+    #[arg(value_parser = clap::value_parser!(u16).range(2..=4096))]
+    pub rays: u16,
+    /// Measure everything so many times; the fastest counts
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    pub repeat: u32,
+    /// What the names of all files begin with: a table, JSON, and plots of each scene
+    #[arg(short, long, value_name = "PREFIX", default_value = "bench")]
+    pub output: PathBuf,
 }
 
 /// `serve`.

@@ -352,8 +352,8 @@ fn smooth_pictures_are_the_same_with_any_threads_and_cost_more_rays() {
         (part["name"].as_str(), part["bytes"].as_u64()),
         (Some("corner samples"), Some(784))
     );
-    let message = one_line(folder.path(), "render scene.nff --aa adaptive --ram 783", 1);
-    assert_eq!(message, "too little memory: 784 bytes needed, 783 bytes there; give --ram 784");
+    let message = one_line(folder.path(), "render scene.nff --aa adaptive --ram 1759", 1);
+    assert_eq!(message, "too little memory: 1760 bytes needed, 1759 bytes there; give --ram 1760");
     let faint = report("--cutoff 1");
     assert_eq!(faint["rays"]["secondary"].as_u64(), Some(0));
 }
@@ -463,5 +463,31 @@ fn a_reader_that_has_seen_enough_is_no_error() {
         let output = child.wait_with_output().unwrap();
         assert!(output.status.success(), "{arguments}");
         assert!(output.stderr.is_empty(), "{arguments}");
+    }
+}
+
+#[test]
+fn bench_writes_table_json_and_plots() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "bench spd:tetra:2 --size 12x12 --rays 9 --aa off,4,adaptive --cutoff 0 --repeat 1 \
+                --accel bvh,grid --ram 16KiB,16 -o out";
+    let text = ok(folder.path(), line);
+    assert_eq!(text, std::fs::read_to_string(folder.path().join("out.md")).unwrap());
+    let report: Value =
+        serde_json::from_slice(&std::fs::read(folder.path().join("out.json")).unwrap()).unwrap();
+    let scene = &report["scenes"][0];
+    // Every number format, structure and arena; every number format and way to sample.
+    let rows = |key: &str| scene[key].as_array().unwrap().clone();
+    let (queries, pictures) = (rows("queries"), rows("pictures"));
+    let formats = rows("findings").len();
+    assert!(formats >= 3);
+    assert_eq!((queries.len(), pictures.len()), (formats * 4, formats * 3));
+    for row in &queries {
+        assert_eq!(row["rays"].is_null(), row["ram"] == 16, "{row}");
+        assert_eq!(row["wrong_ids"], row["explained"], "{row}");
+    }
+    assert!(pictures.iter().any(|row| row["best"] == true));
+    for end in ["svg", "png"] {
+        assert!(folder.path().join(format!("out-tetra.{end}")).metadata().unwrap().len() > 1000);
     }
 }

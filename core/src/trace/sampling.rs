@@ -52,14 +52,15 @@ impl<R: Real> Sampling<R> for Uniform {
 
     fn pixel(&mut self, x: u16, y: u16, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
         let n = i32::from(self.0.max(1));
-        let mut color = Vec3::<R>::default();
+        // Weighed before they are added: fixed point has no room for the sum of all.
+        let (mut color, weight) = (Vec3::<R>::default(), R::fraction(1, n * n));
         for j in 0..n {
             for i in 0..n {
                 let seen = see(2 * (i32::from(x) * n + i) + 1, 2 * (i32::from(y) * n + j) + 1);
-                color = color + seen.map(|c| c.clamp(R::ZERO, R::ONE));
+                color = color + seen.map(|c| c.clamp(R::ZERO, R::ONE)) * weight;
             }
         }
-        color * R::fraction(1, n * n)
+        color
     }
 }
 
@@ -75,14 +76,21 @@ pub struct Adaptive<'m, R: Real> {
     left: Vec3<R>,
     /// The pixel that comes next.
     next: Option<(u16, u16)>,
+    /// What is seen of a pixel at points an eighth of it apart, row by row, as far as is known.
+    parts: &'m mut [Vec3<R>],
+    known: [u16; EDGE],
     threshold: R,
     levels: u8,
 }
 
+/// Points along an edge of a pixel, both corners included.
+const EDGE: usize = PARTS as usize + 1;
+
 impl<'m, R: Real> Adaptive<'m, R> {
-    /// For pictures of so many columns. A square is divided while one of the channels differs by more
+    /// For pictures of so many columns. A pixel is divided where one of the channels differs by more
     /// than `threshold` (0 to 1) between its corners, at most `levels` times (up to
-    /// [`MOST_LEVELS`]).
+    /// [`MOST_LEVELS`]). A part of it, a fourth of the area, has to differ by four times as much, and
+    /// so on: what counts is how much of the pixel's colour is in doubt.
     ///
     /// # Errors
     /// The arena has no room for [`Adaptive::footprint`].
@@ -94,19 +102,47 @@ impl<'m, R: Real> Adaptive<'m, R> {
     ) -> Result<Self, OutOfArena> {
         arena.require(Self::footprint(width))?;
         let corners = arena.keep("corner samples", usize::from(width) + 1)?;
+        let parts = arena.keep("samples of a pixel", EDGE * EDGE)?;
         let levels = levels.min(MOST_LEVELS);
-        Ok(Self { corners, left: Vec3::<R>::default(), next: None, threshold, levels })
+        let (left, known) = (Vec3::<R>::default(), [0; EDGE]);
+        Ok(Self { corners, left, next: None, parts, known, threshold, levels })
     }
 
-    /// The bytes it takes: 12 a column in `f32`.
+    /// The bytes it takes: 12 a column in `f32`, and 984 or up to 8 more.
     pub fn footprint(width: u16) -> Footprint {
-        Footprint::of::<Vec3<R>>(usize::from(width) + 1)
+        Footprint::of::<Vec3<R>>(usize::from(width) + 1).then(Footprint::of::<Vec3<R>>(EDGE * EDGE))
+    }
+
+    /// What is seen at a point of a pixel, in its parts; shot only once.
+    fn seen(&mut self, x: i32, y: i32, shoot: impl FnOnce() -> Vec3<R>) -> Vec3<R> {
+        let (x, y) = (x as usize, y as usize);
+        let row = self.known.get_mut(y).filter(|_| x < EDGE);
+        let (Some(row), Some(part)) = (row, self.parts.get_mut(y * EDGE + x)) else {
+            return shoot();
+        };
+        if *row & 1 << x == 0 {
+            *row |= 1 << x;
+            *part = shoot();
+        }
+        *part
+    }
+
+    /// Goes on to the pixel to the right: its left edge is known as far as the right one is.
+    fn shift(&mut self) {
+        for (row, parts) in self.known.iter_mut().zip(self.parts.chunks_exact_mut(EDGE)) {
+            *row >>= PARTS;
+            if let [first, .., last] = parts {
+                *first = *last;
+            }
+        }
     }
 
     /// The colour of a square, divided where its corners differ.
     #[inline(never)]
-    fn divide(&self, pixel: Square<R>, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
+    fn divide(&mut self, pixel: Square<R>, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
         let least = PARTS >> self.levels;
+        let (column, row) = (pixel.x, pixel.y);
+        let mut see = |it: &mut Self, x: i32, y: i32| it.seen(x - column, y - row, || see(x, y));
         let mut color = Vec3::<R>::default();
         // A divided square leaves its three brothers behind at every level.
         let mut squares = Vec::<Square<R>, { 3 * MOST_LEVELS as usize + 1 }>::new();
@@ -114,16 +150,22 @@ impl<'m, R: Real> Adaptive<'m, R> {
         while let Some(Square { x, y, size, corners }) = squares.pop() {
             let [a, b, c, d] = corners;
             let (least_seen, most_seen) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
-            let differs = (most_seen - least_seen).max_abs() > self.threshold;
+            let (mut threshold, mut edge) = (self.threshold, size);
+            while edge < PARTS {
+                threshold = (threshold.min(R::ONE)).times_int(4);
+                edge += edge;
+            }
+            let differs = (most_seen - least_seen).max_abs() > threshold;
             if !(differs && size > least) {
                 let area = R::fraction(size * size, 4 * PARTS * PARTS);
                 color = color + (a + b + (c + d)) * area;
                 continue;
             }
             let half = size / 2;
-            let (top, left) = (see(x + half, y), see(x, y + half));
-            let middle = see(x + half, y + half);
-            let (right, bottom) = (see(x + size, y + half), see(x + half, y + size));
+            let (top, left) = (see(self, x + half, y), see(self, x, y + half));
+            let middle = see(self, x + half, y + half);
+            let right = see(self, x + size, y + half);
+            let bottom = see(self, x + half, y + size);
             for (x, y, corners) in [
                 (x, y, [a, top, left, middle]),
                 (x + half, y, [top, b, middle, right]),
@@ -154,8 +196,11 @@ impl<R: Real> Sampling<R> for Adaptive<'_, R> {
                 *corner = see(i as i32 * PARTS, row);
             }
         }
-        if !in_order || x == 0 {
+        if in_order && x > 0 {
+            self.shift();
+        } else {
             self.left = see(column, row + PARTS);
+            self.known = [0; EDGE];
         }
         let corner = see(column + PARTS, row + PARTS);
         let is_last = i + 2 >= self.corners.len();
@@ -210,7 +255,7 @@ mod tests {
         levels: u8,
         order: &mut dyn FnMut(u16) -> std::vec::Vec<u16>,
     ) -> (std::vec::Vec<Vec3>, usize) {
-        let mut bytes = [0_u64; 64];
+        let mut bytes = [0_u64; 160];
         let mut arena = Arena::new(bytemuck::cast_slice_mut(&mut bytes));
         let mut adaptive = Adaptive::<f32>::new(20, 0.1, levels, &mut arena).unwrap();
         let mut edge = Edge { seen: std::vec::Vec::new() };
@@ -275,6 +320,6 @@ mod tests {
         let mut bytes = [0_u64; 2];
         let mut arena = Arena::new(bytemuck::cast_slice_mut(&mut bytes));
         let error = Adaptive::<f32>::new(20, 0.1, 3, &mut arena).map(|_| ()).unwrap_err();
-        assert_eq!((error.needed, error.available), (21 * 12 + 4, 16));
+        assert_eq!((error.needed, error.available), (21 * 12 + 4 + 81 * 12 + 4, 16));
     }
 }

@@ -1,5 +1,6 @@
 //! The commands, and how they end.
 
+mod bench;
 mod bounds;
 mod compare;
 mod render;
@@ -40,6 +41,7 @@ pub fn main() -> ExitCode {
         Some(Command::Render(options)) => render::run(Some(options)),
         Some(Command::Stats(options)) => stats::run(&options),
         Some(Command::Trace(options)) => trace::run(&options),
+        Some(Command::Bench(options)) => bench::run(&options),
         Some(Command::Sweep(options)) => sweep::run(&options),
         Some(Command::Compare(options)) => compare::run(&options),
         Some(Command::Bounds(options)) => bounds::run(&options),
