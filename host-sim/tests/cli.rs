@@ -471,7 +471,8 @@ fn bench_writes_table_json_and_plots() {
     let folder = tempfile::tempdir().unwrap();
     let line = "bench spd:tetra:2 --size 12x12 --rays 9 --aa off,4,adaptive --cutoff 0 --repeat 1 \
                 --accel bvh,grid --ram 16KiB,16 -o out";
-    let text = ok(folder.path(), line);
+    let line: Vec<&str> = line.split_whitespace().collect();
+    let text = String::from_utf8(run_in(folder.path(), &line).stdout).unwrap();
     assert_eq!(text, std::fs::read_to_string(folder.path().join("out.md")).unwrap());
     let report: Value =
         serde_json::from_slice(&std::fs::read(folder.path().join("out.json")).unwrap()).unwrap();

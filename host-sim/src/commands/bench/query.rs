@@ -3,14 +3,14 @@
 use kibiray::accel::{Accel, Any, Hit, Kind, mailbox};
 use kibiray::geom::{Interval, Ray};
 use kibiray::num::{Real, Vec3, Vector};
-use kibiray::scene::{Camera, Scene, Shapes, Solids};
+use kibiray::scene::{Camera, Scene, Shapes};
 use serde::Serialize;
 
 use super::name_of;
 use crate::commands::stage::{self, Loaded, Stage, TooLittle};
 use crate::engine::{Memory, Picture, fastest};
 use crate::options::{Bench, Common};
-use crate::tables::Tables;
+use crate::tables::{HostShapes, Tables};
 
 /// A measure's median, 99th percentile and maximum.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -92,7 +92,7 @@ pub(super) fn row<R: Real>(
 
 /// Doubles: a scene and a structure over it.
 struct Exact<'a> {
-    scene: &'a Scene<'a, f64, Solids<'a, f64>>,
+    scene: &'a Scene<'a, f64, HostShapes<'a, f64>>,
     accel: Any<'a, f64>,
 }
 
