@@ -257,7 +257,7 @@ mod tests {
     ) -> (std::vec::Vec<Vec3>, usize) {
         let mut bytes = [0_u64; 160];
         let mut arena = Arena::new(bytemuck::cast_slice_mut(&mut bytes));
-        let mut adaptive = Adaptive::<f32>::new(20, 0.1, levels, &mut arena).unwrap();
+        let mut adaptive = Adaptive::<f32>::new(20, 0.05, levels, &mut arena).unwrap();
         let mut edge = Edge { seen: std::vec::Vec::new() };
         let mut pixels = std::vec![Vec3::ZERO; 20 * 15];
         for y in 0..15 {
