@@ -9,6 +9,7 @@ use core::cell::UnsafeCell;
 use kibiray::accel::{Accel, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
+use kibiray::num::Real;
 use kibiray::scene::{Camera, Shapes};
 use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Crc32, Each, Row, Structure, Subject, answer};
@@ -76,7 +77,7 @@ fn picture<S: Subject>(arena: &mut Arena<'_>) -> Option<u32> {
     if height == 0 {
         return Some(0);
     }
-    let camera = Camera::new(&S::view(), f32::from(width) / f32::from(height)).ok()?;
+    let camera = Camera::new(&S::view(), S::Number::fraction(width.into(), height.into())).ok()?;
     let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
     let tracer = Tracer::new(&scene, &accel, mailbox::Off, settings);
     let mut renderer = Renderer::new(tracer, camera, width, height);
