@@ -80,6 +80,8 @@ fn screenshot(browser: &Browser, name: &str) -> Result<()> {
 }
 
 fn scenes(browser: &Browser) -> Result<()> {
+    // The list is made by the module, once that is loaded.
+    done(browser)?;
     let offered = browser.text("document.querySelector('#scene').options.length")?;
     ensure!(offered == EXHIBITS.len().to_string(), "{offered} scenes");
     for number in 0..EXHIBITS.len() {
