@@ -54,7 +54,7 @@ impl Wishes {
         self.overlap.unwrap_or(Overlap::Exact)
     }
 
-    fn grid(&self, resolution: [u32; 3]) -> grid::Settings {
+    fn grid(&self, resolution: [u32; 3]) -> grid::Settings<Overlap> {
         let macro_cells = self.macro_cells.unwrap_or(true);
         grid::Settings { resolution, huge: self.huge(), overlap: self.overlap(), macro_cells }
     }
@@ -266,7 +266,7 @@ fn grid_for<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     wishes: &Wishes,
     room: usize,
-) -> grid::Settings {
+) -> grid::Settings<Overlap> {
     // A cell takes two bytes at least.
     let mut cells = scene.shapes().bounded().saturating_mul(8).min(room / 2).max(1);
     loop {

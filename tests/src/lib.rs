@@ -145,7 +145,10 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     use mailbox::Kind::{Cache, Off, Stamps};
     let settings = |max_objects, max_level, huge| {
         let limits = octree::Limits { max_objects, max_level };
-        octree::Settings { growth: octree::Growth { huge, ..limits.into() }, ..limits.into() }
+        octree::Settings {
+            growth: octree::Growth { huge, ..octree::Growth::new(limits) },
+            ..limits.into()
+        }
     };
     let octree = |objects, level| Kind::Octree(settings(objects, level, Huge::Aside));
     let inside = |objects, level| Kind::Octree(settings(objects, level, Huge::Inside));
@@ -153,9 +156,9 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         let cells = scene.shapes().count() * n;
         let resolution = grid::resolution_for(scene, huge, cells);
         let macro_cells = huge == Huge::Aside;
-        Kind::Grid(grid::Settings { huge, macro_cells, ..resolution.into() })
+        Kind::Grid(grid::Settings { huge, macro_cells, ..grid::Settings::new(resolution) })
     };
-    let cubic = |n: u32| Kind::Grid([n; 3].into());
+    let cubic = |n: u32| Kind::Grid(grid::Settings::new([n; 3]));
     let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (cubic(1), Off, UNLIMITED)];
     // From the fewest nodes to one shape a leaf, and as a budget comes out.
     let shapes = scene.shapes().bounded();
@@ -184,7 +187,8 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
     {
         let overlap = Overlap::Exact;
         let resolution = grid::resolution_for(scene, Huge::Aside, cells * scene.shapes().count());
-        let exact = grid::Settings { huge: Huge::Aside, overlap, ..resolution.into() };
+        let exact =
+            grid::Settings { huge: Huge::Aside, overlap, ..grid::Settings::new(resolution) };
         setups.push((Kind::Grid(exact), mailbox, UNLIMITED));
         let mut exact = settings(1, 9, Huge::Aside);
         exact.growth.overlap = overlap;
@@ -195,8 +199,8 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
             cells(3, Huge::Inside),
             cells(3, Huge::Aside),
             cubic(16),
-            Kind::Grid(grid::Settings { macro_cells: true, ..[24; 3].into() }),
-            Kind::Grid([7, 1, 30].into()),
+            Kind::Grid(grid::Settings { macro_cells: true, ..grid::Settings::new([24; 3]) }),
+            Kind::Grid(grid::Settings::new([7, 1, 30])),
             inside(1, 6),
             octree(1, 6),
         ] {

@@ -109,25 +109,30 @@ fn the_footprint_is_the_high_water_mark() {
         let scene = tables.scene(&polygons).unwrap();
         let stored = |max_objects, max_level, store| {
             let limits = octree::Limits { max_objects, max_level };
-            let growth = octree::Growth { huge: Huge::Aside, ..limits.into() };
+            let growth = octree::Growth { huge: Huge::Aside, ..octree::Growth::new(limits) };
             Kind::Octree(octree::Settings { growth, store, ..limits.into() })
         };
         let octree = |objects, level| stored(objects, level, octree::Store::Links);
         let hashed = |objects, level| stored(objects, level, octree::Store::Hashed);
         let kinds = [
             Kind::Naive,
-            Kind::Grid([1, 1, 1].into()),
-            Kind::Grid([20, 3, 7].into()),
-            Kind::Grid(grid::Settings { huge: Huge::Aside, macro_cells: true, ..[40; 3].into() }),
+            Kind::Grid(grid::Settings::new([1, 1, 1])),
+            Kind::Grid(grid::Settings::new([20, 3, 7])),
+            Kind::Grid(grid::Settings {
+                huge: Huge::Aside,
+                macro_cells: true,
+                ..grid::Settings::new([40; 3])
+            }),
             octree(1, 0),
             octree(1, 1),
             octree(1, 4),
             octree(8, 5),
             octree(100_000, 10),
-            Kind::Grid(grid::Settings { overlap: Overlap::Exact, ..[15; 3].into() }),
+            Kind::Grid(grid::Settings { overlap: Overlap::Exact, ..grid::Settings::new([15; 3]) }),
             {
                 let limits = octree::Limits { max_objects: 3, max_level: 5 };
-                let growth = octree::Growth { overlap: Overlap::Exact, ..limits.into() };
+                let growth =
+                    octree::Growth { overlap: Overlap::Exact, ..octree::Growth::new(limits) };
                 Kind::Octree(octree::Settings { growth, ..limits.into() })
             },
             Kind::Bvh(0),

@@ -156,7 +156,8 @@ fn conform<R: Real>(number: &str, worlds: u64, rays: usize) {
         let scene = tables.scene(&polygons);
         let expected = naive_answers(&scene, &shots);
         hits += expected.iter().filter(|(hit, _)| hit.is_some()).count();
-        let grid = |overlap| Kind::Grid(grid::Settings { overlap, ..[23, 29, 31].into() });
+        let grid =
+            |overlap| Kind::Grid(grid::Settings { overlap, ..grid::Settings::new([23, 29, 31]) });
         let mut octree: octree::Settings = octree::Limits { max_objects: 0, max_level: 6 }.into();
         octree.growth.overlap = Overlap::Exact;
         let mut references = vec![];

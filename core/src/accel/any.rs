@@ -1,7 +1,7 @@
 //! A structure whose kind is chosen while the program runs.
 
 use super::octree::{self, AnyOctree};
-use super::{Accel, BuildError, Bvh, Grid, Id, Naive, Visitor, bvh, grid};
+use super::{Accel, BuildError, Bvh, Grid, Id, Naive, Overlap, Visitor, bvh, grid};
 use crate::geom::Ray;
 use crate::memory::{Arena, Footprint};
 use crate::num::Real;
@@ -13,7 +13,7 @@ pub enum Kind {
     /// [`Naive`].
     Naive,
     /// [`Grid`].
-    Grid(grid::Settings),
+    Grid(grid::Settings<Overlap>),
     /// An [`Octree`](super::Octree), within the memory that is free.
     Octree(octree::Settings),
     /// [`Bvh`] of so many nodes.

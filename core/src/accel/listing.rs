@@ -32,6 +32,29 @@ pub enum Overlap {
     Exact,
 }
 
+/// How the lists of a structure are made: a type, so that a program that is content with the plain
+/// way has no code for the others.
+pub trait Listing: Copy + core::fmt::Debug + Default {
+    /// When a shape is listed in a cell.
+    fn overlap(self) -> Overlap;
+}
+
+/// The plain way: a shape is listed where its box touches the cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ByBox;
+
+impl Listing for ByBox {
+    fn overlap(self) -> Overlap {
+        Overlap::Box
+    }
+}
+
+impl Listing for Overlap {
+    fn overlap(self) -> Overlap {
+        self
+    }
+}
+
 /// Shapes that are kept beside a structure, at most.
 pub const MOST_ASIDE: usize = 6;
 

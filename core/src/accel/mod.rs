@@ -30,7 +30,7 @@ pub use bvh::Bvh;
 pub use error::BuildError;
 pub use grid::Grid;
 pub use id::Id;
-pub use listing::{Huge, MOST_ASIDE, Overlap};
+pub use listing::{ByBox, Huge, Listing, MOST_ASIDE, Overlap};
 pub use mailbox::Mailbox;
 pub use naive::Naive;
 pub use octree::Octree;

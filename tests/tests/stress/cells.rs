@@ -17,7 +17,7 @@ use std::ops::Range;
 pub(super) fn run<R: Tested>(percent: usize) -> Report {
     let grid = |macro_cells| {
         let resolution = [CELLS as u32, CELLS as u32, 1];
-        accel::Kind::Grid(grid::Settings { macro_cells, ..resolution.into() })
+        accel::Kind::Grid(grid::Settings { macro_cells, ..grid::Settings::new(resolution) })
     };
     let limits = octree::Limits { max_objects: 1, max_level: octree::DEEPEST };
     let walks = [
@@ -260,8 +260,8 @@ fn walls<R: Tested>(rays: usize) -> Tally {
     };
     use octree::{Store, Walk};
     let kinds = [
-        accel::Kind::Grid([16; 3].into()),
-        accel::Kind::Grid(grid::Settings { macro_cells: true, ..[32; 3].into() }),
+        accel::Kind::Grid(grid::Settings::new([16; 3])),
+        accel::Kind::Grid(grid::Settings { macro_cells: true, ..grid::Settings::new([32; 3]) }),
         octree(Walk::Descent, Store::Links),
         octree(Walk::Restart, Store::Hashed),
         octree(Walk::Neighbours, Store::Links),
@@ -294,12 +294,14 @@ fn vast<R: Tested>(percent: usize) -> Tally {
             Some((ray::<R>(sub(at, times(way, 600.0)), way)?, Interval::RAY))
         })
         .collect();
-    let bytes = Any::footprint(accel::Kind::Grid([1024; 3].into()), &scene).unwrap().peak;
+    let bytes =
+        Any::footprint(accel::Kind::Grid(grid::Settings::new([1024; 3])), &scene).unwrap().peak;
     let mut memory = Memory::new(bytes + 64);
     let naive: Vec<_> =
         shots.iter().map(|(ray, interval)| super::tools::nearest(&scene, ray, *interval)).collect();
     for macro_cells in [false, true] {
-        let kind = accel::Kind::Grid(grid::Settings { macro_cells, ..[1024; 3].into() });
+        let kind =
+            accel::Kind::Grid(grid::Settings { macro_cells, ..grid::Settings::new([1024; 3]) });
         let mut arena = Arena::new(memory.bytes(bytes + 64));
         let accel = Any::build(kind, &scene, &mut arena).unwrap();
         for ((ray, interval), expected) in shots.iter().zip(&naive) {

@@ -146,9 +146,9 @@ pub(super) fn structures<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<
         accel::Kind::Grid(grid::Settings {
             huge: accel::Huge::Aside,
             macro_cells: true,
-            ..resolution.into()
+            ..grid::Settings::new(resolution)
         }),
-        accel::Kind::Grid([16; 3].into()),
+        accel::Kind::Grid(grid::Settings::new([16; 3])),
         octree(2, octree::DEEPEST.min(8)),
         accel::Kind::Bvh(shapes / 10),
         accel::Kind::Bvh(shapes),

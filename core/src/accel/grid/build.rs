@@ -3,7 +3,7 @@
 use super::{Grid, Settings, Size, distance, index};
 use crate::accel::lattice::{self, Lattice};
 use crate::accel::listing::Aside;
-use crate::accel::{BuildError, Huge, Id, Overlap};
+use crate::accel::{BuildError, Huge, Id, Listing, Overlap};
 use crate::geom::Aabb;
 use crate::memory::Arena;
 use crate::num::{Real, Vector};
@@ -29,22 +29,25 @@ fn listed<R: Real, S: Shapes<R>, I: Id>(
 
 /// Counts the cells and list entries that a resolution gives. Time in proportion to the number of
 /// shapes, or with [`Overlap::Exact`] to that of the cells that their boxes touch; no memory.
-pub fn size<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, settings: impl Into<Settings>) -> Size {
+pub fn size<R: Real, S: Shapes<R>, L: Listing>(
+    scene: &Scene<'_, R, S>,
+    settings: impl Into<Settings<L>>,
+) -> Size {
     let Settings { resolution, huge, overlap, .. } = settings.into();
     let (root, aside) = room::<_, _, u32>(scene, huge);
     size_of_room(scene, &Lattice::new(root, resolution, scene.pad()), &aside, overlap)
 }
 
-fn size_of_room<R: Real, S: Shapes<R>>(
+fn size_of_room<R: Real, S: Shapes<R>, L: Listing>(
     scene: &Scene<'_, R, S>,
     lattice: &Lattice<R>,
     aside: &Aside<impl Id>,
-    overlap: Overlap,
+    overlap: L,
 ) -> Size {
     let product = |n: [i32; 3]| n.iter().fold(1_usize, |p, n| p.saturating_mul(*n as usize));
     let references = listed(scene, aside).fold(0_usize, |sum, id| {
         let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(scene.shapes().bounds(id));
-        sum.saturating_add(match overlap {
+        sum.saturating_add(match overlap.overlap() {
             Overlap::Box => product([x1 - x0 + 1, y1 - y0 + 1, z1 - z0 + 1]),
             Overlap::Exact => {
                 let mut cells = 0_usize;
@@ -86,9 +89,9 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
     /// # Errors
     /// [`BuildError::Memory`] with the exact number of bytes; [`BuildError::TooMany`] when ids or
     /// offsets do not fit their types.
-    pub fn build<S: Shapes<R>>(
+    pub fn build<S: Shapes<R>, L: Listing>(
         scene: &Scene<'_, R, S>,
-        settings: impl Into<Settings>,
+        settings: impl Into<Settings<L>>,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         let Settings { resolution, huge, overlap, macro_cells } = settings.into();
@@ -135,10 +138,10 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
 }
 
 /// Calls `f` with the number of every cell that lists a shape.
-fn for_cells<R: Real, S: Shapes<R>>(
+fn for_cells<R: Real, S: Shapes<R>, L: Listing>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
-    overlap: Overlap,
+    overlap: L,
     id: usize,
     mut f: impl FnMut(usize),
 ) {
@@ -147,7 +150,7 @@ fn for_cells<R: Real, S: Shapes<R>>(
         for y in y0..=y1 {
             for x in x0..=x1 {
                 let cell = || lattice.room([x, y, z], [1; 3]);
-                if overlap == Overlap::Box || scene.shapes().overlaps(id, &cell()) {
+                if overlap.overlap() == Overlap::Box || scene.shapes().overlaps(id, &cell()) {
                     f(index(lattice.count(), x, y, z));
                 }
             }

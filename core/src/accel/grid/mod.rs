@@ -16,7 +16,7 @@ pub use build::{resolution_for, size};
 
 use super::lattice::Lattice;
 use super::listing::Aside;
-use super::{Huge, Id, Overlap};
+use super::{ByBox, Huge, Id, Listing};
 use crate::memory::Footprint;
 use crate::num::Real;
 use distance::Slot;
@@ -32,24 +32,31 @@ pub struct Grid<'m, R: Real, I, O> {
     aside: Aside<I>,
 }
 
-/// All that is chosen about a grid. A resolution alone means: everything is listed.
+/// All that is chosen about a grid. A resolution alone means: everything is listed, by its box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Settings {
+pub struct Settings<L = ByBox> {
     /// Cells along each axis.
     pub resolution: [u32; 3],
     /// What is done with shapes much larger than the others.
     pub huge: Huge,
-    /// When a shape is listed in a cell.
-    pub overlap: Overlap,
+    /// When a shape is listed in a cell: [`ByBox`], or an [`Overlap`](super::Overlap) where that is
+    /// not known when the program is compiled.
+    pub overlap: L,
     /// Whether empty cells know how far it is to the next that is not: takes no memory, but time
     /// while building.
     pub macro_cells: bool,
 }
 
+impl<L: Listing> Settings<L> {
+    /// Everything is listed, in the default way; no distances.
+    pub fn new(resolution: [u32; 3]) -> Self {
+        Self { resolution, huge: Huge::Inside, overlap: L::default(), macro_cells: false }
+    }
+}
+
 impl From<[u32; 3]> for Settings {
     fn from(resolution: [u32; 3]) -> Self {
-        let (huge, overlap) = (Huge::Inside, Overlap::Box);
-        Self { resolution, huge, overlap, macro_cells: false }
+        Self::new(resolution)
     }
 }
 

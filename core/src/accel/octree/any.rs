@@ -2,7 +2,7 @@
 
 use super::{Growth, Hashed, Limits, Links, Octree, StoppedBy, Walk};
 use crate::accel::listing::Aside;
-use crate::accel::{Accel, BuildError, Id, Visitor};
+use crate::accel::{Accel, BuildError, Id, Overlap, Visitor};
 use crate::geom::Ray;
 use crate::memory::{Arena, Footprint};
 use crate::num::Real;
@@ -22,7 +22,7 @@ pub enum Store {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// How it grows.
-    pub growth: Growth,
+    pub growth: Growth<Overlap>,
     /// How cells are stored.
     pub store: Store,
     /// How a ray gets from leaf to leaf.
@@ -31,7 +31,7 @@ pub struct Settings {
 
 impl From<Limits> for Settings {
     fn from(limits: Limits) -> Self {
-        Self { growth: limits.into(), store: Store::default(), walk: Walk::default() }
+        Self { growth: Growth::new(limits), store: Store::default(), walk: Walk::default() }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::build::{Growing, Refusal, StoppedBy};
 use super::cursor::Cursor;
 use super::storage::{Content, Storage};
-use crate::accel::Id;
+use crate::accel::{Id, Listing};
 use crate::num::Real;
 use crate::scene::Shapes;
 
@@ -15,7 +15,9 @@ fn benefit(tests: u64, bytes: u64, level: u32) -> u64 {
     (tests << 40).checked_div(bytes).unwrap_or(0) >> (2 * level)
 }
 
-impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S, I, C> {
+impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
+    Growing<'_, '_, 'm, R, S, I, C, L>
+{
     /// Divides what saves most tests for its bytes first, until nothing is left that saves any or
     /// something refuses.
     ///

@@ -11,7 +11,7 @@ use super::footprint::bytes;
 use super::storage::{Content, Storage, most};
 use super::{Octree, list_at};
 use crate::accel::lattice::{self, Lattice};
-use crate::accel::listing::{Aside, Huge, Overlap};
+use crate::accel::listing::{Aside, ByBox, Huge, Listing, Overlap};
 use crate::accel::{BuildError, Id};
 use crate::memory::{Arena, Ends, Footprint};
 use crate::num::Real;
@@ -26,15 +26,16 @@ pub struct Limits {
     pub max_level: u32,
 }
 
-/// How an octree grows. [`Limits`] alone mean: everything is listed.
+/// How an octree grows. [`Limits`] alone mean: everything is listed, by its box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Growth {
+pub struct Growth<L = ByBox> {
     /// When a cell is divided.
     pub limits: Limits,
     /// What is done with shapes much larger than the others.
     pub huge: Huge,
-    /// When a shape is listed in a cell.
-    pub overlap: Overlap,
+    /// How lists are made: [`ByBox`], or an [`Overlap`] where that is not known when the program is
+    /// compiled.
+    pub overlap: L,
     /// Which cells are divided first.
     pub order: Order,
 }
@@ -51,9 +52,16 @@ pub enum Order {
     Benefit,
 }
 
+impl<L: Listing> Growth<L> {
+    /// Everything is listed, in the default way; first in, first out.
+    pub fn new(limits: Limits) -> Self {
+        Self { limits, huge: Huge::Inside, overlap: L::default(), order: Order::Breadth }
+    }
+}
+
 impl From<Limits> for Growth {
     fn from(limits: Limits) -> Self {
-        Self { limits, huge: Huge::Inside, overlap: Overlap::Box, order: Order::Breadth }
+        Self::new(limits)
     }
 }
 
@@ -72,9 +80,9 @@ pub enum StoppedBy {
 ///
 /// # Errors
 /// [`BuildError::TooMany`], [`BuildError::TooDeep`].
-pub(super) fn room<R: Real, S: Shapes<R>, I: Id>(
+pub(super) fn room<R: Real, S: Shapes<R>, I: Id, L>(
     scene: &Scene<'_, R, S>,
-    Growth { limits, huge, .. }: Growth,
+    Growth { limits, huge, .. }: Growth<L>,
 ) -> Result<(Lattice<R>, Aside<I>), BuildError> {
     let deepest = limits.max_level;
     if deepest > DEEPEST {
@@ -91,7 +99,7 @@ pub(super) fn room<R: Real, S: Shapes<R>, I: Id>(
 pub(super) fn touches<R: Real, S: Shapes<R>>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
-    overlap: Overlap,
+    overlap: impl Listing,
     id: usize,
     base: [i32; 3],
     edge: i32,
@@ -115,7 +123,7 @@ pub(super) fn touches<R: Real, S: Shapes<R>>(
     let touched = spread(x, 0b0101_0101, 0b1010_1010)
         & spread(y, 0b0011_0011, 0b1100_1100)
         & spread(z, 0b0000_1111, 0b1111_0000);
-    if overlap == Overlap::Box {
+    if overlap.overlap() == Overlap::Box {
         return touched;
     }
     let [x, y, z] = base;
@@ -131,14 +139,14 @@ pub(super) fn touches<R: Real, S: Shapes<R>>(
 pub(super) fn is_listed<R: Real, S: Shapes<R>>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
-    overlap: Overlap,
+    overlap: impl Listing,
     id: usize,
     base: [i32; 3],
     edge: i32,
 ) -> bool {
     let [all, _, _] = lattice.count();
-    touches(lattice, scene, Overlap::Box, id, base, edge) != 0
-        && (overlap == Overlap::Box
+    touches(lattice, scene, ByBox, id, base, edge) != 0
+        && (overlap.overlap() == Overlap::Box
             || edge == all
             || scene.shapes().overlaps(id, &lattice.room(base, [edge; 3])))
 }
@@ -150,9 +158,9 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     /// # Errors
     /// [`BuildError::Memory`] when not even a single cell that lists every shape fits;
     /// [`BuildError::TooMany`], [`BuildError::TooDeep`].
-    pub fn build<S: Shapes<R>>(
+    pub fn build<S: Shapes<R>, L: Listing>(
         scene: &Scene<'_, R, S>,
-        growth: impl Into<Growth>,
+        growth: impl Into<Growth<L>>,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         Self::build_in_words(scene, growth.into(), arena, true)
@@ -163,13 +171,13 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     ///
     /// # Errors
     /// As [`Octree::build`], and [`BuildError::TooMany`] when the words are too narrow.
-    pub(crate) fn build_in_words<S: Shapes<R>>(
+    pub(crate) fn build_in_words<S: Shapes<R>, L: Listing>(
         scene: &Scene<'_, R, S>,
-        growth: Growth,
+        growth: Growth<L>,
         arena: &mut Arena<'m>,
         may_stop: bool,
     ) -> Result<Self, BuildError> {
-        let (lattice, aside) = room::<R, S, I>(scene, growth)?;
+        let (lattice, aside) = room::<R, S, I, L>(scene, growth)?;
         let limits = growth.limits;
         let shapes = scene.shapes().bounded() - aside.count();
         let entries = shapes + usize::from(shapes > 0);
@@ -183,7 +191,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         let (root, max_level) = (Content::List(0), 0);
         let overlap = growth.overlap;
         let mut growing =
-            Growing::<R, S, I, C> { lattice, scene, overlap, limits, root, max_level, ends };
+            Growing::<R, S, I, C, L> { lattice, scene, overlap, limits, root, max_level, ends };
         growing.plant(shapes, &aside);
         let grown = match growth.order {
             Order::Breadth => growing.grow(),
@@ -210,10 +218,10 @@ pub(super) enum Refusal {
     Words(usize),
 }
 
-pub(super) struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
+pub(super) struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>, L> {
     lattice: Lattice<R>,
     scene: &'g Scene<'s, R, S>,
-    overlap: Overlap,
+    overlap: L,
     pub(super) limits: Limits,
     root: Content,
     /// Level of the deepest leaf.
@@ -222,7 +230,9 @@ pub(super) struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>> {
     pub(super) ends: Ends<'g, C::Block, I>,
 }
 
-impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>> Growing<'_, '_, 'm, R, S, I, C> {
+impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
+    Growing<'_, '_, 'm, R, S, I, C, L>
+{
     /// The root: one cell that lists every shape.
     fn plant(&mut self, shapes: usize, aside: &Aside<I>) {
         if shapes > 0 && self.ends.grow(0, shapes + 1, 0) {

@@ -4,7 +4,7 @@ use super::Octree;
 use super::build::{Growth, Order, is_listed, room};
 use super::code::{Code, DEEPEST};
 use super::storage::{Storage, most};
-use crate::accel::{BuildError, Id};
+use crate::accel::{BuildError, Id, Listing};
 use crate::memory::{Footprint, ends_bytes};
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
@@ -35,12 +35,12 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     /// # Errors
     /// [`BuildError::TooMany`], also when the octree's words are too narrow for all of it;
     /// [`BuildError::TooDeep`].
-    pub fn footprint<S: Shapes<R>>(
+    pub fn footprint<S: Shapes<R>, L: Listing>(
         scene: &Scene<'_, R, S>,
-        growth: impl Into<Growth>,
+        growth: impl Into<Growth<L>>,
     ) -> Result<Footprint, BuildError> {
         let growth = growth.into();
-        let (lattice, aside) = room::<R, S, I>(scene, growth)?;
+        let (lattice, aside) = room::<R, S, I, L>(scene, growth)?;
         let (limits, deepest) = (growth.limits, growth.limits.max_level);
         let mut levels = [Level::default(); DEEPEST as usize + 1];
         let mut next = Some(Code::ROOT);
