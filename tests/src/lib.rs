@@ -190,7 +190,7 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         let exact =
             grid::Settings { huge: Huge::Aside, overlap, ..grid::Settings::new(resolution) };
         setups.push((Kind::Grid(exact), mailbox, UNLIMITED));
-        let mut exact = settings(1, 9, Huge::Aside);
+        let mut exact = settings(1, 6, Huge::Aside);
         exact.growth.overlap = overlap;
         setups.push((Kind::Octree(exact), mailbox, budget));
     }
