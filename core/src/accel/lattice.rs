@@ -41,6 +41,28 @@ impl<R: Real> Lattice<R> {
         slopes.clip(self.bounds.lo, self.bounds.hi, min, max)
     }
 
+    /// The parameter at which a ray enters, between `min` and `max`; from its tracks.
+    pub(crate) fn enter(&self, ray: &Ray<R>, tracks: &[Track<R>; 3], min: R, max: R) -> Option<R> {
+        let (mut enter, mut leave) = (min, max);
+        for ((track, n), axis) in tracks.iter().zip(self.count).zip(Axis::ALL) {
+            let (first, last) = (track.crossing(0), track.crossing(n));
+            let (near, far) = match track.sign {
+                0 => {
+                    let o = ray.origin().along(axis);
+                    if o >= self.bounds.lo.along(axis) && o <= self.bounds.hi.along(axis) {
+                        continue;
+                    }
+                    return None;
+                }
+                1 => (first, last),
+                _ => (last, first),
+            };
+            enter = enter.max(near);
+            leave = leave.min(far);
+        }
+        (enter <= leave).then_some(enter)
+    }
+
     /// The cells of a point, the nearest ones when it lies outside.
     pub(crate) fn cell_of(&self, p: Vec3<R>) -> [i32; 3] {
         let [nx, ny, nz] = self.count;
@@ -100,6 +122,11 @@ impl<R: Real> Track<R> {
     /// coordinate, as rays start no farther away than four times that.
     pub(crate) fn crossing(&self, i: i32) -> R {
         self.walls.at(i)
+    }
+
+    /// The number of the wall through which the ray leaves a cell.
+    pub(crate) fn wall_behind(&self, cell: i32) -> i32 {
+        if self.sign > 0 { cell + 1 } else { cell }
     }
 
     /// The parameter at which the ray leaves the cells `first..first + count`.

@@ -31,7 +31,7 @@ pub trait Convex<R: Real>: Shape<R> {
 
 impl<R: Real> Convex<R> for Sphere<R> {
     fn span(&self, ray: &Ray<R>, length: &Self::PerRay) -> Option<(R, R)> {
-        self.crossings(ray, length, (-R::INFINITY, R::INFINITY))
+        self.crossings(ray, length)
     }
 }
 

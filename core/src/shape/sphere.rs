@@ -28,26 +28,35 @@ impl<R: Real> Sphere<R> {
     }
 }
 
-/// What round shapes want to know of a ray: the reciprocals of its direction's length.
+/// What round shapes want to know of a ray: its direction's length.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Length<R: Real> {
     /// 1 / |d|²
     pub(super) inverse_squared: R,
-    /// 1 / |d|
+    /// 1 / |d|; of no use where numbers are exact.
     inverse: R,
+    /// d / |d|, where numbers are exact.
+    unit: Vec3<R>,
 }
 
 impl<R: Real> Length<R> {
-    /// A division and a square root.
+    /// A division and a square root, unless it is 1.
     pub(super) fn of(ray: &Ray<R>) -> Self {
-        if R::EXACT {
-            // Lengths of 1 are common, and where they are not the root is of use for few spheres.
-            let unit = ray.squared() == R::ONE;
-            let inverse_squared = if unit { R::ONE } else { R::ONE / ray.squared() };
-            return Self { inverse_squared, inverse: R::ZERO };
+        if !R::EXACT {
+            let inverse_squared = R::ONE / ray.squared();
+            return Self {
+                inverse_squared,
+                inverse: inverse_squared.sqrt(),
+                unit: Vec3::<R>::default(),
+            };
         }
-        let inverse_squared = R::ONE / ray.squared();
-        Self { inverse_squared, inverse: inverse_squared.sqrt() }
+        // A length of 1 may be rounded; what that makes of a hit is less than a step.
+        let (inverse, unit) = if (ray.squared() - R::ONE).abs() <= R::ulps(4) {
+            (R::ONE, Some(ray.direction()))
+        } else {
+            (R::ONE / ray.squared(), ray.direction().unit())
+        };
+        Self { inverse_squared: inverse, inverse: R::ZERO, unit: unit.unwrap_or_default() }
     }
 }
 
@@ -55,34 +64,41 @@ impl<R: Real> Sphere<R> {
     /// Middle less and plus half the chord: not quite the crossings, and never wild.
     #[inline]
     pub(crate) fn chord(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
-        let f = self.center - ray.origin();
-        let inverses = [length.inverse, length.inverse_squared];
-        let everywhere = (-R::INFINITY, R::INFINITY);
-        let (middle, half) = R::chord(f, ray.direction(), inverses, self.radius, everywhere)?;
+        let (middle, half) = self.middle(ray, length)?;
         Some((middle - half, middle + half))
     }
 
-    /// Both crossings, the smaller first; of a sphere that the ray meets only outside the interval
-    /// perhaps none.
-    pub(super) fn crossings(
-        &self,
-        ray: &Ray<R>,
-        length: &Length<R>,
-        interval: (R, R),
-    ) -> Option<(R, R)> {
+    /// The middle of the chord and half its length.
+    #[inline(always)]
+    fn middle(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
         let f = self.center - ray.origin();
-        let inverses = [length.inverse, length.inverse_squared];
-        let (middle, half) = R::chord(f, ray.direction(), inverses, self.radius, interval)?;
-        if R::EXACT {
-            return Some((middle - half, middle + half));
+        if R::passes(f, length.unit, self.radius) {
+            return None;
         }
+        R::chord(f, ray.direction(), [length.inverse, length.inverse_squared], self.radius)
+    }
+
+    /// Both crossings, the smaller first.
+    #[inline]
+    pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
+        let (middle, half) = self.middle(ray, length)?;
+        Some(self.ends(ray, length, middle, half))
+    }
+
+    /// The ends of the chord. Apart from it, as most rays pass by most spheres.
+    #[inline(never)]
+    fn ends(&self, ray: &Ray<R>, length: &Length<R>, middle: R, half: R) -> (R, R) {
+        if R::EXACT {
+            return (middle - half, middle + half);
+        }
+        let f = self.center - ray.origin();
         let outer = if middle >= R::ZERO { middle + half } else { middle - half };
         // The product of both solutions is (|f|² - r²) / |d|².
         let rr = self.radius.times(self.radius);
         let inner = R::narrow(f.dot(f) - rr) * length.inverse_squared / outer;
         // It is the smaller one, whatever rounding says of a ray that touches where it starts.
         let inner = inner.clamp(-outer.abs(), outer.abs());
-        Some(if inner <= outer { (inner, outer) } else { (outer, inner) })
+        if inner <= outer { (inner, outer) } else { (outer, inner) }
     }
 }
 
@@ -119,8 +135,9 @@ impl<R: Real> Shape<R> for Sphere<R> {
         Region::Ball { center: self.center, radius: self.radius }
     }
 
+    #[inline]
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
-        let (near, far) = self.crossings(ray, length, (min, max))?;
+        let (near, far) = self.crossings(ray, length)?;
         if near > min {
             (near <= max).then_some(near)
         } else {

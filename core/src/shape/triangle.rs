@@ -125,11 +125,16 @@ impl<R: Real> Shear<R> {
     /// Where a point lies across and along the ray; along it, where products are dear, not yet scaled.
     #[inline]
     pub(crate) fn apply(&self, point: &Vec3<R>) -> (R, R, R) {
-        let ([u, v, w], [x, y, z]) = (self.axes, self.origin);
-        let z = point.pick(w).way(z);
-        let (x, y) = (point.pick(u).way(x), point.pick(v).way(y));
+        let z = point.pick(self.axes[2]).way(self.origin[2]);
         let along = if R::EXACT { z } else { self.scale * z };
-        (R::sheared(x, self.slope.0, z), R::sheared(y, self.slope.1, z), along)
+        (self.first(point), self.second(point), along)
+    }
+
+    /// The first of these coordinates alone.
+    #[inline]
+    fn first(&self, point: &Vec3<R>) -> R {
+        let ([u, _, w], [x, _, z]) = (self.axes, self.origin);
+        R::sheared(point.pick(u).way(x), self.slope.0, point.pick(w).way(z))
     }
 
     /// The second of these coordinates alone.
@@ -184,7 +189,19 @@ impl<R: Real> Shape<R> for Triangle<R> {
 
     #[inline]
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        let [a, b, c] = self.corners.each_ref().map(|corner| shear.apply(corner));
+        let corners = self.corners.each_ref();
+        // Where products are exact, a ray that all corners lie on one side of is outside. Rounded
+        // weights may say otherwise, and then the neighbour's have to decide.
+        if R::EXACT && !FOURS {
+            let beside = |[x, y, z]: [R; 3]| {
+                let zero = R::ZERO;
+                (x > zero && y > zero && z > zero) || (x < zero && y < zero && z < zero)
+            };
+            if beside(corners.map(|c| shear.second(c))) || beside(corners.map(|c| shear.first(c))) {
+                return None;
+            }
+        }
+        let [a, b, c] = corners.map(|corner| shear.apply(corner));
         let weights @ [u, v, w] = weights([a, b, c]);
         let zero = R::Wide::default();
         // Signs differ: outside. Two of them often tell.

@@ -11,8 +11,10 @@ use crate::probe::Probe;
 /// The walk along one axis.
 struct Along<R: Real> {
     track: Track<R>,
-    cell: i32,
-    count: i32,
+    /// The number of the next wall.
+    wall: i32,
+    /// How many cells there are behind it.
+    left: i32,
     /// What a step adds to the number of the cell.
     stride: isize,
     /// Parameter of the next wall.
@@ -21,28 +23,32 @@ struct Along<R: Real> {
 
 impl<R: Real> Along<R> {
     fn new(track: Track<R>, cell: i32, count: i32, stride: isize) -> Self {
+        let wall = track.wall_behind(cell);
+        let left = match track.sign {
+            0 => 0,
+            1 => count - 1 - cell,
+            _ => cell,
+        };
         let stride = stride * track.sign as isize;
-        Self { track, cell, count, stride, next: track.exit(cell, 1) }
-    }
-
-    /// Moves on by a cell; `None` when that leaves the grid.
-    fn step(&mut self) -> Option<isize> {
-        self.leap(1)
+        Self { track, wall, left, stride, next: track.crossing(wall) }
     }
 
     /// Moves on by so many cells and says how far that is in the order of cells; `None` when that
     /// leaves the grid.
+    #[inline(always)]
     fn leap(&mut self, cells: i32) -> Option<isize> {
-        self.cell += self.track.sign * cells;
-        self.next = self.track.exit(self.cell, 1);
-        let inside = self.track.sign != 0 && self.cell >= 0 && self.cell < self.count;
-        inside.then_some(self.stride * cells as isize)
+        self.left -= cells;
+        if self.left < 0 {
+            return None;
+        }
+        self.wall += self.track.sign * cells;
+        self.next = self.track.crossing(self.wall);
+        Some(self.stride * cells as isize)
     }
 
     /// The parameter at which the ray has moved on by so many cells, or leaves the grid.
     fn after(&self, cells: i32) -> R {
-        let last = self.cell + self.track.sign * (cells - 1);
-        self.track.exit(last.max(0).min(self.count - 1), 1)
+        self.track.crossing(self.wall + self.track.sign * (cells - 1).min(self.left))
     }
 
     /// Moves on to where single steps would be, once all walls before `t` have been passed, and
@@ -54,19 +60,20 @@ impl<R: Real> Along<R> {
         }
         let passed = |wall: R| wall < t || (first && wall == t);
         // As a number of steps from here; steps never go back.
-        let mut steps = ((near - self.cell) * self.track.sign).max(0);
-        for _ in 0..self.count {
-            let cell = self.cell + self.track.sign * steps;
-            if steps > 0 && !passed(self.track.exit(cell - self.track.sign, 1)) {
+        let mut steps = ((self.track.wall_behind(near) - self.wall) * self.track.sign).max(0);
+        for _ in 0..=self.left {
+            let wall = self.wall + self.track.sign * steps;
+            if steps > 0 && !passed(self.track.crossing(wall - self.track.sign)) {
                 steps -= 1;
-            } else if passed(self.track.exit(cell, 1)) {
+            } else if passed(self.track.crossing(wall)) {
                 steps += 1;
             } else {
                 break;
             }
         }
-        self.cell += self.track.sign * steps;
-        self.next = self.track.exit(self.cell, 1);
+        self.left -= steps;
+        self.wall += self.track.sign * steps;
+        self.next = self.track.crossing(self.wall);
         self.stride * steps as isize
     }
 }
@@ -74,13 +81,11 @@ impl<R: Real> Along<R> {
 impl<R: Real, I: Id, O: Id> Accel<R> for Grid<'_, R, I, O> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         self.aside.visit(visitor);
-        let slopes = Slopes::of(ray);
-        let Some((enter, _)) = self.lattice.clip(&slopes, visitor.start(), visitor.limit()) else {
-            return;
-        };
-        let [tx, ty, tz] = self.lattice.tracks(ray, &slopes);
+        let tracks = self.lattice.tracks(ray, &Slopes::of(ray));
+        let start = self.lattice.enter(ray, &tracks, visitor.start(), visitor.limit());
+        let Some(enter) = start else { return };
         let ([cx, cy, cz], count) = (self.lattice.cell_of(ray.at(enter)), self.lattice.count());
-        let [nx, ny, nz] = count;
+        let ([nx, ny, nz], [tx, ty, tz]) = (count, tracks);
         let mut cell = index(count, cx, cy, cz);
         let mut x = Along::new(tx, cx, nx, 1);
         let mut y = Along::new(ty, cy, ny, nx as isize);
@@ -97,23 +102,23 @@ impl<R: Real, I: Id, O: Id> Accel<R> for Grid<'_, R, I, O> {
                 }
                 Slot::Empty(distance) => distance as i32,
             };
+            let limit = visitor.limit();
             // Of walls at the same parameter that along x comes first, then that along y.
             let stride = if reach == 1 {
-                let nearest = if x.next <= y.next && x.next <= z.next {
-                    &mut x
+                // Three branches, so that nothing has to be looked up by axis.
+                if x.next <= y.next && x.next <= z.next {
+                    if limit <= x.next { None } else { x.leap(1) }
                 } else if y.next <= z.next {
-                    &mut y
+                    if limit <= y.next { None } else { y.leap(1) }
+                } else if limit <= z.next {
+                    None
                 } else {
-                    &mut z
-                };
-                if visitor.limit() <= nearest.next {
-                    return;
+                    z.leap(1)
                 }
-                nearest.step()
             } else {
                 let (ax, ay, az) = (x.after(reach), y.after(reach), z.after(reach));
                 let t = ax.min(ay).min(az);
-                if visitor.limit() <= t {
+                if limit <= t {
                     return;
                 }
                 let [px, py, pz] = self.lattice.cell_of(ray.at(t));

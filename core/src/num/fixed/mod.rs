@@ -31,6 +31,7 @@
 //! [`Real::INFINITY`] or its opposite, which are no numbers ([`Real::is_finite`]) and so no hits.
 //! A division by zero does, too. Sums of products cannot saturate and need not.
 
+mod chord;
 mod linear;
 mod vector;
 mod whole;
@@ -319,37 +320,17 @@ impl Real for Fixed {
         Self::ulps(n)
     }
     #[inline(always)]
+    fn passes(towards: Vec3, unit: Vec3, radius: Self) -> bool {
+        chord::passes(towards, unit, radius)
+    }
+    #[inline(always)]
     fn chord(
         towards: Vec3,
         direction: Vec3,
         [_, inverse_squared]: [Self; 2],
         radius: Self,
-        (min, max): (Self, Self),
     ) -> Option<(Self, Self)> {
-        // Everything is in range here: see the proof above.
-        let product = |a: i32, b: i32| i64::from(a) * i64::from(b);
-        let cut = |steps: i64| ((steps + (1 << (DIGITS - 1))) >> DIGITS) as i32;
-        let [x, y, z] = towards.to_array().map(Self::to_bits);
-        let [dx, dy, dz] = direction.to_array().map(Self::to_bits);
-        let inverse = inverse_squared.to_bits();
-        let middle = cut(product(x, dx) + product(y, dy) + product(z, dz));
-        let middle = cut(product(middle, inverse));
-        // The length of a direction is at least √3/4, so no crossing is farther away than that.
-        let radius = radius.to_bits();
-        let farthest = radius + (radius >> 2) + 8;
-        if middle.wrapping_sub(farthest) > max.to_bits()
-            || middle.wrapping_add(farthest) < min.to_bits()
-        {
-            return None;
-        }
-        let across = |f: i32, d: i32| f.wrapping_sub(cut(product(d, middle)));
-        let (x, y, z) = (across(x, dx), across(y, dy), across(z, dz));
-        let left = product(radius, radius) - (product(x, x) + product(y, y) + product(z, z));
-        if left < 0 {
-            return None;
-        }
-        let rest = cut(product(x, dx) + product(y, dy) + product(z, dz));
-        Some(half_chord(middle, rest, left as u64, inverse_squared))
+        chord::chord(towards, direction, inverse_squared, radius)
     }
     /// Errors do not grow with the distance: as far as the range goes.
     fn far(_scale: Self) -> Self {
@@ -410,18 +391,6 @@ impl Real for Fixed {
     fn distance_to(far: FarPoint, towards: Self) -> Self {
         towards.ldexp(far.exponent())
     }
-}
-
-/// The chord of a sphere that is hit, of what [`Real::chord`] knows; apart from it, as it is rare.
-#[inline(never)]
-fn half_chord(middle: i32, rest: i32, left: u64, inverse_squared: Fixed) -> (Fixed, Fixed) {
-    let half = Fixed::signed(false, nearest_root(left));
-    // What rounding left along the ray is taken back.
-    let rest = Fixed::from_bits(rest);
-    if inverse_squared == Fixed::ONE {
-        return (Fixed::from_bits(middle) + rest, half);
-    }
-    (Fixed::from_bits(middle) + rest * inverse_squared, half * inverse_squared.sqrt())
 }
 
 #[cfg(test)]
