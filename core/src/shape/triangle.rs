@@ -3,7 +3,8 @@
 //! S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2(1) (2013): the ray
 //! is sheared onto an axis, so that the test becomes one of the origin against three edges in the
 //! plane. A shared edge gives both its triangles the same number with opposite sign, and 0 counts
-//! as inside: a ray cannot pass between them. The original computes again in double precision where
+//! as inside: a ray cannot pass between them. (Rounding is monotonic: no edge function has the wrong
+//! sign, though it may be 0 beside the edge.) The original computes again in double precision where
 //! an edge function is 0; that serves to give an edge to one triangle only. Here both may claim it,
 //! and the order of shapes decides.
 
@@ -39,6 +40,47 @@ impl<R: Real> Triangle<R> {
         let part = if R::EXACT { R::ONE } else { R::fraction(1, 16) };
         let [a, b, c] = self.corners;
         ((b - a) * part).across((c - a) * part).is_zero()
+    }
+
+    /// Whether all corners lie on one side of a ray: it passes outside. Where weights are rounded to
+    /// 0 on either side of an edge, this tells one from the other.
+    #[inline(always)]
+    fn is_beside(&self, shear: &Shear<R>) -> bool {
+        let beside = |[x, y, z]: [R; 3]| {
+            let zero = R::ZERO;
+            (x > zero && y > zero && z > zero) || (x < zero && y < zero && z < zero)
+        };
+        let corners = self.corners.each_ref();
+        beside(corners.map(|c| shear.second(c))) || beside(corners.map(|c| shear.first(c)))
+    }
+
+    /// The test by the weights of the corners.
+    #[inline(always)]
+    fn meet(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
+        let [a, b, c] = self.corners.each_ref().map(|corner| shear.apply(corner));
+        let weights @ [u, v, w] = weights([a, b, c]);
+        let zero = R::Wide::default();
+        // Signs differ: outside. Two of them often tell.
+        if !FOURS && ((u < zero && v > zero) || (u > zero && v < zero)) {
+            return None;
+        }
+        let least = |a: R::Wide, b: R::Wide| if a < b { a } else { b };
+        let greatest = |a: R::Wide, b: R::Wide| if a > b { a } else { b };
+        // A number that is none passes here, and is refused as `t`.
+        let some_negative = least(least(u, v), w) < zero;
+        let some_positive = greatest(greatest(u, v), w) > zero;
+        // Signs differ: outside. All zero: edge-on.
+        if some_negative == some_positive || (FOURS && !R::EXACT && self.is_beside(shear)) {
+            return None;
+        }
+        let t = self.depth(ray, shear, weights, [a.2, b.2, c.2])?;
+        (t > min && t <= max).then_some(t)
+    }
+
+    /// The same, where it is rarely needed.
+    #[inline(never)]
+    fn meet_apart(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
+        self.meet(ray, shear, min, max)
     }
 
     /// Where a ray that passes inside meets it. Apart from the test, which then stays small enough to
@@ -187,38 +229,13 @@ impl<R: Real> Shape<R> for Triangle<R> {
         Region::flat(self.area_vector(), self.corners)
     }
 
-    #[inline]
+    #[inline(always)]
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        let corners = self.corners.each_ref();
-        // Where products are exact, a ray that all corners lie on one side of is outside. Rounded
-        // weights may say otherwise, and then the neighbour's have to decide.
-        if R::EXACT && !FOURS {
-            let beside = |[x, y, z]: [R; 3]| {
-                let zero = R::ZERO;
-                (x > zero && y > zero && z > zero) || (x < zero && y < zero && z < zero)
-            };
-            if beside(corners.map(|c| shear.second(c))) || beside(corners.map(|c| shear.first(c))) {
-                return None;
-            }
+        if FOURS {
+            return self.meet(ray, shear, min, max);
         }
-        let [a, b, c] = corners.map(|corner| shear.apply(corner));
-        let weights @ [u, v, w] = weights([a, b, c]);
-        let zero = R::Wide::default();
-        // Signs differ: outside. Two of them often tell.
-        if !FOURS && ((u < zero && v > zero) || (u > zero && v < zero)) {
-            return None;
-        }
-        let least = |a: R::Wide, b: R::Wide| if a < b { a } else { b };
-        let greatest = |a: R::Wide, b: R::Wide| if a > b { a } else { b };
-        // A number that is none passes here, and is refused as `t`.
-        let some_negative = least(least(u, v), w) < zero;
-        let some_positive = greatest(greatest(u, v), w) > zero;
-        if some_negative == some_positive {
-            // Signs differ: outside. All zero: edge-on.
-            return None;
-        }
-        let t = self.depth(ray, shear, weights, [a.2, b.2, c.2])?;
-        (t > min && t <= max).then_some(t)
+        // Three of four are told outside by less than the weights take.
+        if self.is_beside(shear) { None } else { self.meet_apart(ray, shear, min, max) }
     }
 
     fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {
