@@ -12,6 +12,7 @@ macro_rules! float {
             type Reciprocal = Self;
             type Cells = FloatCells<Self>;
             type Progress = FloatProgress<Self>;
+            type Slope = Self;
 
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -48,6 +49,13 @@ macro_rules! float {
             }
             fn proportion(self, whole: Self, n: i32) -> i32 {
                 (self / whole * n as Self) as i32
+            }
+            fn slopes([u, v]: [Self; 2], along: Self) -> ([Self; 2], Self) {
+                ([u / along, v / along], 1.0 / along)
+            }
+            #[inline(always)]
+            fn sheared(x: Self, slope: Self, z: Self) -> Self {
+                x - slope * z
             }
             fn to_byte(self) -> u8 {
                 ((self * 255.0 + 0.5) as i32).clamp(0, 255) as u8

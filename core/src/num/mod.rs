@@ -84,6 +84,8 @@ pub trait Real:
     type FarPoint: Copy + Debug + PartialEq + Send + Sync;
     /// 1 / d for a component of a direction.
     type Reciprocal: Reciprocal<Self>;
+    /// How far a ray moves across an axis while it moves along it by 1; at most 1.
+    type Slope: Copy + Debug + Default + Send + Sync;
     /// An extent divided into equal cells.
     type Cells: Cells<Self>;
     /// Walls at equal distances along a ray.
@@ -235,11 +237,11 @@ pub trait Real:
     fn at(origin: Self::Vec3, direction: Self::Vec3, t: Self) -> Self::Vec3 {
         origin + direction * t
     }
+    /// `across / along` of two components of a direction, of which `along` is the greatest, and
+    /// `1 / along`.
+    fn slopes(across: [Self; 2], along: Self) -> ([Self::Slope; 2], Self);
     /// `x - slope * z`, for places in the scene as a ray sees them.
-    #[inline(always)]
-    fn sheared(x: Self, slope: Self, z: Self) -> Self {
-        x - slope * z
-    }
+    fn sheared(x: Self, slope: Self::Slope, z: Self) -> Self;
     /// The difference of two places in the scene or of rays that are not far from it.
     #[inline(always)]
     fn way(self, from: Self) -> Self {

@@ -144,24 +144,20 @@ pub struct Shear<R: Real> {
     axes: [Axis; 3],
     /// The ray's origin along these axes.
     origin: [R; 3],
-    slope: (R, R),
+    slope: [R::Slope; 2],
     scale: R,
 }
 
 impl<R: Real> Shear<R> {
-    /// Three divisions.
+    /// Three divisions; one, where they are dear.
     pub(crate) fn of(ray: &Ray<R>) -> Self {
         let d = ray.direction();
         let major = d.major_axis();
         let (u, v) = major.others();
         let along = d.along(major);
         let axes = [u, v, major];
-        Self {
-            axes,
-            origin: axes.map(|axis| ray.origin().along(axis)),
-            slope: (d.along(u) / along, d.along(v) / along),
-            scale: R::ONE / along,
-        }
+        let (slope, scale) = R::slopes([d.along(u), d.along(v)], along);
+        Self { axes, origin: axes.map(|axis| ray.origin().along(axis)), slope, scale }
     }
 
     /// Where a point lies across and along the ray; along it, where products are dear, not yet scaled.
@@ -176,14 +172,14 @@ impl<R: Real> Shear<R> {
     #[inline]
     fn first(&self, point: &Vec3<R>) -> R {
         let ([u, _, w], [x, _, z]) = (self.axes, self.origin);
-        R::sheared(point.pick(u).way(x), self.slope.0, point.pick(w).way(z))
+        R::sheared(point.pick(u).way(x), self.slope[0], point.pick(w).way(z))
     }
 
     /// The second of these coordinates alone.
     #[inline]
     pub(crate) fn second(&self, point: &Vec3<R>) -> R {
         let ([_, v, w], [_, y, z]) = (self.axes, self.origin);
-        R::sheared(point.pick(v).way(y), self.slope.1, point.pick(w).way(z))
+        R::sheared(point.pick(v).way(y), self.slope[1], point.pick(w).way(z))
     }
 }
 

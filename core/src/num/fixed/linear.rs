@@ -14,7 +14,7 @@ pub struct Reciprocal {
 }
 
 impl Reciprocal {
-    fn of(d: Fixed) -> Self {
+    pub(super) fn of(d: Fixed) -> Self {
         let size = d.to_bits().unsigned_abs();
         let length = u32::BITS - size.leading_zeros();
         // 2^28 / size is 2^(28 - length) times a number from 1 to 2, of which 31 bits are kept.
@@ -28,9 +28,30 @@ impl Reciprocal {
         Self { mantissa, shift: (2 + length).min(31) }
     }
 
+    /// The quotient of a component that is not greater.
+    pub(super) fn slope(self, across: Fixed) -> Slope {
+        // The divisor's size is 1/2 at least: 28 bits or more.
+        let product = i64::from(across.to_bits()) * i64::from(self.mantissa);
+        let steps = (product >> self.shift.saturating_sub(4)) + 1;
+        Slope((steps >> 1).clamp(-i64::from(i32::MAX), i64::from(i32::MAX)) as i32)
+    }
+
     /// Half of what is shifted out.
     fn half(self) -> i64 {
         (1_u32 << self.shift >> 1).into()
+    }
+}
+
+/// A number from -1 to 1 in steps of 2^-31; ±1 is the nearest below.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slope(i32);
+
+impl Slope {
+    /// Its product with a number from -4 to 4, in steps of 2^-28, rounded down. The upper half of a
+    /// product is all that this takes.
+    #[inline(always)]
+    pub(super) fn times(self, z: Fixed) -> i32 {
+        ((i64::from(z.to_bits() << 1) * i64::from(self.0)) >> 32) as i32
     }
 }
 

@@ -12,6 +12,7 @@
 //! | coordinate, length, ray parameter, direction, colour | I4F28 | ±8 | 2^-28 |
 //! | sum of products ([`Real::Wide`]) | I8F56 | ±128 | 2^-56, exact |
 //! | reciprocal of a direction | 31 bits and an exponent | 2^-1 to 2^28 | 2^-31 of its value |
+//! | slope of a ray | 31 bits after the point | ±1 | 2^-31 |
 //! | wall of a lattice, as a ray parameter | 64 bits and an exponent | all of them | 2^-30 of a step of the coordinates |
 //! | cosine power ([`Exponent`]) | U22F10 | 0 to 4 million | 2^-10 |
 //! | place of a light ([`FarPoint`]) | three I4F28 and an exponent | 2^30 | 2^-28 of its distance |
@@ -36,10 +37,10 @@ mod linear;
 mod vector;
 mod whole;
 
-pub use linear::{Cells, Progress, Reciprocal};
+pub use linear::{Cells, Progress, Reciprocal, Slope};
 pub use vector::{FarPoint, Vec3};
 
-use super::{Real, Vector};
+use crate::num::{self, Real, Vector};
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use fixed::types::{I4F28, I8F56, U22F10};
@@ -167,6 +168,7 @@ impl Real for Fixed {
     type Reciprocal = Reciprocal;
     type Cells = Cells;
     type Progress = Progress;
+    type Slope = Slope;
 
     const ZERO: Self = Self::from_bits(0);
     const ONE: Self = Self::from_bits(1 << DIGITS);
@@ -348,11 +350,15 @@ impl Real for Fixed {
             along(origin.z, direction.z),
         )
     }
+    fn slopes(across: [Self; 2], along: Self) -> ([Slope; 2], Self) {
+        let reciprocal = Reciprocal::of(along);
+        let scale = num::Reciprocal::times(reciprocal, Self::ONE);
+        (across.map(|x| reciprocal.slope(x)), scale)
+    }
+    /// Less than a step above the exact one.
     #[inline(always)]
-    fn sheared(x: Self, slope: Self, z: Self) -> Self {
-        let product = i64::from(slope.to_bits()) * i64::from(z.to_bits());
-        let steps = (product + (1 << (DIGITS - 1))) >> DIGITS;
-        Self::from_bits(x.to_bits().wrapping_sub(steps as i32))
+    fn sheared(x: Self, slope: Slope, z: Self) -> Self {
+        Self::from_bits(x.to_bits().wrapping_sub(slope.times(z)))
     }
     #[inline(always)]
     fn way(self, from: Self) -> Self {
