@@ -1,6 +1,6 @@
 //! Reciprocals, and walls at equal distances along a ray.
 
-use super::whole::{quotient, shifted};
+use super::whole::{normal_quotient, quotient, shifted};
 use super::{DIGITS, Fixed};
 use crate::num;
 
@@ -16,13 +16,15 @@ pub struct Reciprocal {
 impl Reciprocal {
     pub(super) fn of(d: Fixed) -> Self {
         let size = d.to_bits().unsigned_abs();
-        let length = u32::BITS - size.leading_zeros();
-        // 2^28 / size is 2^(28 - length) times a number from 1 to 2, of which 31 bits are kept.
         if size == 0 {
             return Self::default();
         }
+        let up = size.leading_zeros();
+        let length = u32::BITS - up;
+        // 2^28 / size is 2^(28 - length) times a number from 1 to 2, of which 31 bits are kept.
+        let normal = size << up;
         // What is 2 becomes the next smaller number.
-        let mantissa = quotient((1_u64 << (30 + length)) + u64::from(size / 2), size);
+        let mantissa = normal_quotient((1_u64 << 62) + u64::from(normal / 2), normal);
         let mantissa = mantissa.min(i32::MAX as u32) as i32;
         let mantissa = if d.to_bits() < 0 { -mantissa } else { mantissa };
         Self { mantissa, shift: (2 + length).min(31) }
@@ -78,21 +80,28 @@ impl num::Reciprocal<Fixed> for Reciprocal {
 pub struct Cells {
     /// The width of a cell in steps of 2^-56.
     width: i64,
-    count: i32,
-    extent: Reciprocal,
+    /// Cells in a step: a number of 30 or 31 bits times 2^-shift.
+    density: i32,
+    shift: u32,
 }
 
 impl num::Cells<Fixed> for Cells {
     fn new(extent: Fixed, count: i32) -> Self {
-        let width = (i64::from(extent.to_bits()) << DIGITS).checked_div(count.into());
-        Self { width: width.unwrap_or(0), count, extent: Reciprocal::of(extent) }
+        let (extent, count) = (extent.to_bits().max(1), count.max(1));
+        let width = (i64::from(extent) << DIGITS).checked_div(count.into());
+        let shift = 30 + extent.ilog2() - count.ilog2();
+        let density = quotient((count as u64) << shift, extent.unsigned_abs());
+        Self { width: width.unwrap_or(0), density: density as i32, shift }
     }
 
     fn index(&self, x: Fixed) -> i32 {
-        // The part of the extent in 2^-31, from nothing to a little more than all of it.
-        let part = (i64::from(x.to_bits()) * i64::from(self.extent.mantissa))
-            >> (self.extent.shift + DIGITS).saturating_sub(31);
-        ((part.clamp(-(1 << 32), 1 << 32) * i64::from(self.count)) >> 31) as i32
+        let product = i64::from(x.to_bits()) * i64::from(self.density);
+        match self.shift.checked_sub(32) {
+            // The upper half is enough.
+            Some(more) => (product >> 32) as i32 >> (more & 31),
+            // Several cells in a step.
+            None => shifted(product, self.shift),
+        }
     }
 
     fn wall(&self, i: i32) -> Fixed {

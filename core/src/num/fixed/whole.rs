@@ -26,7 +26,11 @@ pub(super) fn quotient(n: u64, d: u32) -> u32 {
         return u32::MAX;
     }
     let up = d.leading_zeros();
-    let (n, d) = (n << up, d << up);
+    normal_quotient(n << up, d << up)
+}
+
+/// The same for a divisor of 32 bits and a quotient of no more.
+pub(super) fn normal_quotient(n: u64, d: u32) -> u32 {
     // Its uppermost bit is there; told once more, the compiler knows that it is not 0.
     let Some(upper) = NonZeroU32::new(d >> 16 | 1 << 15) else { return u32::MAX };
     let lower = d & 0xffff;

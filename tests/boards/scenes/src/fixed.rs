@@ -112,7 +112,7 @@ pub struct FixedTriangles<K>(PhantomData<K>);
 /// Spheres, every one tested.
 pub type FixedSpheresNaive = FixedSpheres<Naive>;
 /// Spheres in the grid that is best in `f32`, too.
-pub type FixedSpheresGrid = FixedSpheres<Grid<7, 7, 7>>;
+pub type FixedSpheresGrid = FixedSpheres<Grid<9, 9, 9>>;
 /// Spheres in the octree.
 pub type FixedSpheresOctree = FixedSpheres<Octree<16, 3>>;
 /// Spheres in the hierarchy.
