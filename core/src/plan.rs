@@ -39,6 +39,8 @@ pub struct Wishes {
     pub macro_cells: Option<bool>,
     /// Which cells of an octree are divided first.
     pub order: Option<octree::Order>,
+    /// Whether an octree's leaves with equal lists share one.
+    pub shared: Option<bool>,
     /// How an octree's cells are stored.
     pub store: Option<octree::Store>,
     /// How an octree is walked.
@@ -69,7 +71,10 @@ impl Wishes {
             growth: octree::Growth {
                 limits,
                 huge: self.huge(),
-                overlap: self.overlap(),
+                lists: octree::Lists {
+                    overlap: self.overlap(),
+                    shared: self.shared.unwrap_or(false),
+                },
                 order: self.order.unwrap_or_default(),
             },
             store: self.store.unwrap_or_default(),
@@ -82,6 +87,7 @@ impl Wishes {
         self.max_objects.is_some()
             || self.max_level.is_some()
             || self.order.is_some()
+            || self.shared.is_some()
             || self.store.is_some()
             || self.walk.is_some()
     }

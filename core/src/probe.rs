@@ -19,6 +19,8 @@ pub trait Probe {
     fn primitive_tests(&mut self, _count: usize) {}
     /// A mailbox knew that a shape had been tested for this ray.
     fn mailbox_skip(&mut self) {}
+    /// A list was skipped as a whole, as this ray had been tested against it.
+    fn list_skip(&mut self) {}
     /// A node or a cell was looked at.
     fn step(&mut self) {}
     /// A leaf or a cell was entered; whether it lists no shape.
@@ -39,13 +41,15 @@ pub struct Rays {
     pub hit: u64,
 }
 
-/// Counts everything; 88 bytes.
+/// Counts everything; 96 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Tests of a ray against a shape.
     pub primitive_tests: u64,
     /// Tests that a mailbox made unnecessary.
     pub mailbox_skips: u64,
+    /// Lists skipped as a whole.
+    pub list_skips: u64,
     /// Nodes or cells looked at.
     pub steps: u64,
     /// Leaves or cells entered.
@@ -66,6 +70,9 @@ impl Probe for Counters {
     }
     fn mailbox_skip(&mut self) {
         self.mailbox_skips += 1;
+    }
+    fn list_skip(&mut self) {
+        self.list_skips += 1;
     }
     fn step(&mut self) {
         self.steps += 1;
@@ -95,6 +102,7 @@ impl core::ops::AddAssign for Counters {
     fn add_assign(&mut self, other: Self) {
         self.primitive_tests += other.primitive_tests;
         self.mailbox_skips += other.mailbox_skips;
+        self.list_skips += other.list_skips;
         self.steps += other.steps;
         self.leaves += other.leaves;
         self.empty_leaves += other.empty_leaves;

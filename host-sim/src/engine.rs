@@ -13,14 +13,18 @@ use kibiray::scene::{Scene, Shapes};
 use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 
 use crate::options::{
-    AccelKind, Antialiasing, Common, Growth, Huge, MailboxKind, Overlap, Store, Switch, Walk,
+    AccelKind, Antialiasing, Common, Growth, Huge, ListKind, MailboxKind, Overlap, Store, Switch,
+    Walk,
 };
 use crate::structure;
 use crate::tables::HostShapes;
 
 /// What traces on this host.
 pub type HostTracer<'a, R> =
-    Tracer<'a, R, HostShapes<'a, R>, structure::Structure<'a, R>, AnyMailbox<'a>>;
+    Tracer<'a, R, HostShapes<'a, R>, structure::Structure<'a, R>, HostMailbox<'a>>;
+
+/// What remembers, on this host, which shapes a ray has been tested against.
+pub type HostMailbox<'a> = mailbox::Lists<AnyMailbox<'a>>;
 
 /// Bytes that an arena lies in.
 #[derive(Debug)]
@@ -83,6 +87,7 @@ pub fn wishes(options: &Common) -> Wishes {
             Growth::Fifo => octree::Order::Breadth,
             Growth::Benefit => octree::Order::Benefit,
         }),
+        shared: options.lists.map(|lists| lists == ListKind::Shared),
         store: options.store.map(|store| match store {
             Store::Links => octree::Store::Links,
             Store::Hash => octree::Store::Hashed,
@@ -200,7 +205,7 @@ pub struct Built<'m, R: Real> {
     /// The structure.
     pub accel: structure::Structure<'m, R>,
     /// A mailbox a thread.
-    pub mailboxes: Vec<AnyMailbox<'m>>,
+    pub mailboxes: Vec<HostMailbox<'m>>,
     /// How to sample, a thread.
     pub samplings: Vec<AnySampling<'m, R>>,
     /// How long all that took.
@@ -222,7 +227,8 @@ impl<'m, R: Real> Built<'m, R> {
         let threads = usize::from(options.threads);
         let samplings = (0..threads).map(|_| picture.sampling(arena)).collect::<Result<_, _>>()?;
         let (budget, taken) = (arena.available(), arena.used());
-        let plan = plan_for_threads(scene, budget, &wishes(options), threads);
+        let plan =
+            plan_for_threads(scene, budget, &wishes(&options.clone().without_skips()), threads);
         let plan = plan.map_err(|error| match error {
             BuildError::Memory(OutOfArena { needed, available }) => {
                 let needed = needed.saturating_add(taken);
@@ -232,8 +238,11 @@ impl<'m, R: Real> Built<'m, R> {
         })?;
         let shapes = scene.shapes().bounded();
         let mailboxes = (0..threads)
-            .map(|_| AnyMailbox::new(plan.mailbox, shapes, arena))
-            .collect::<Result<_, _>>()?;
+            .map(|_| {
+                let shapes = AnyMailbox::new(plan.mailbox, shapes, arena)?;
+                Ok(mailbox::Lists::new(shapes, options.shares_lists()))
+            })
+            .collect::<Result<_, OutOfArena>>()?;
         let accel = structure::Structure::build(options, plan.accel, scene, arena)?;
         Ok(Self { plan, accel, mailboxes, samplings, seconds: start.elapsed().as_secs_f64() })
     }

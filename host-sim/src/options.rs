@@ -209,6 +209,8 @@ pub enum Table {
     Growth,
     #[value(help = "lists by boxes with exact ones")]
     Overlap,
+    #[value(help = "equal lists of an octree's leaves stored once with every leaf its own")]
+    Lists,
     #[value(help = "every way to skip work with going without it")]
     Skips,
     #[value(help = "ways to store an octree")]
@@ -316,6 +318,10 @@ pub struct Common {
     /// Octree: which cells are divided first, while memory lasts [default: fifo]
     #[arg(long, value_enum, value_name = "ORDER")]
     pub growth: Option<Growth>,
+    /// Octree: whether leaves with equal lists share one, which a ray is tested against once
+    /// [default: own]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub lists: Option<ListKind>,
     /// Octree: how its cells are stored [default: links]
     #[arg(long, value_enum, value_name = "KIND")]
     pub store: Option<Store>,
@@ -339,6 +345,9 @@ pub struct Common {
     /// Grid and octree: when a shape belongs to a cell [default: by the plan; box for stats]
     #[arg(long, value_enum)]
     pub overlap: Option<Overlap>,
+    /// Do in spite of everything what is skipped otherwise, to see what that gains
+    #[arg(long, value_enum, value_name = "WORK", value_delimiter = ',')]
+    pub no_skip: Vec<Skip>,
     /// Also write the report as JSON; `-`: standard output
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
@@ -469,6 +478,33 @@ pub enum Huge {
     Aside,
 }
 
+/// `--lists`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[allow(missing_docs)]
+pub enum ListKind {
+    Own,
+    Shared,
+}
+
+/// What `--no-skip` does in spite of everything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Skip {
+    /// Mirrored and refracted rays that add nothing
+    Contribution,
+    /// Shadow rays: try the last occluder first
+    Occluder,
+    /// Cells of a grid where nothing is, several at a time
+    Empty,
+    /// Shapes in cells that their boxes touch and their surfaces do not
+    Cells,
+    /// Huge shapes in every cell
+    Huge,
+    /// Shapes that the ray has been tested against
+    Tested,
+    /// Lists that the ray has been tested against
+    Lists,
+}
+
 /// `--store`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[allow(missing_docs)]
@@ -527,6 +563,7 @@ impl Common {
             || self.max_level.is_some()
             || self.growth.is_some()
             || self.store.is_some()
+            || self.lists.is_some()
             || self.walk.is_some_and(|walk| !walk.is_of_tree());
         let tree = self.builder.is_some()
             || self.insertion.is_some()
@@ -553,6 +590,28 @@ impl Common {
             return Err("--seed is only for --insertion shuffled".into());
         }
         Ok(())
+    }
+
+    /// Whether rays remember lists that leaves share.
+    pub fn shares_lists(&self) -> bool {
+        self.lists == Some(ListKind::Shared) && !self.no_skip.contains(&Skip::Lists)
+    }
+
+    /// What `--no-skip` says of structures, where nothing else does.
+    #[must_use]
+    pub fn without_skips(mut self) -> Self {
+        for skip in self.no_skip.clone() {
+            match skip {
+                Skip::Empty => drop(self.macro_cells.get_or_insert(Switch::Off)),
+                Skip::Cells => drop(self.overlap.get_or_insert(Overlap::Box)),
+                Skip::Huge => drop(self.huge.get_or_insert(Huge::Inside)),
+                Skip::Tested if self.mailbox == MailboxKind::Auto => {
+                    self.mailbox = MailboxKind::Off;
+                }
+                _ => {}
+            }
+        }
+        self
     }
 
     /// With the parameters of a structure fixed, what is not given is as in the published counts.

@@ -2,14 +2,13 @@
 
 use embedded_graphics_core::pixelcolor::RgbColor;
 use indicatif::ProgressBar;
-use kibiray::accel::mailbox::AnyMailbox;
 use kibiray::display::rgb888;
 use kibiray::num::Real;
 use kibiray::probe::Counters;
 use kibiray::scene::{Camera, Scene};
 use kibiray::trace::{Renderer, Settings, Tracer};
 
-use crate::engine::{AnySampling, Built, Pass, fastest, share, timed};
+use crate::engine::{AnySampling, Built, HostMailbox, Pass, fastest, share, timed};
 use crate::image::Image;
 use crate::structure::Structure;
 use crate::tables::HostShapes;
@@ -30,7 +29,7 @@ pub struct Rendered {
 /// A thread's renderer and its counters.
 struct Worker<'a, R: Real> {
     renderer:
-        Renderer<'a, R, HostShapes<'a, R>, Structure<'a, R>, AnyMailbox<'a>, AnySampling<'a, R>>,
+        Renderer<'a, R, HostShapes<'a, R>, Structure<'a, R>, HostMailbox<'a>, AnySampling<'a, R>>,
     counters: Counters,
 }
 

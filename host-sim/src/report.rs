@@ -72,6 +72,9 @@ pub struct AccelReport {
     /// Lists that differ from each other, the empty one not counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distinct_lists: Option<usize>,
+    /// Bytes that an octree's leaves save by sharing lists.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shared_bytes: Option<usize>,
     /// Shapes in a leaf of a hierarchy, in the mean.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shapes_per_leaf: Option<f64>,
@@ -200,6 +203,7 @@ impl AccelReport {
             references: Some(references),
             aside: Some(octree.aside()),
             distinct_lists: Some(distinct),
+            shared_bytes: Some(octree.shared_bytes()).filter(|bytes| *bytes > 0),
             max_level: Some(octree.max_level()),
             stopped_by: Some(match octree.stopped_by() {
                 StoppedBy::Done => "done",
@@ -294,6 +298,11 @@ impl RaysReport {
     }
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(count: &u64) -> bool {
+    *count == 0
+}
+
 /// What the rays had to do.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct WorkReport {
@@ -301,6 +310,9 @@ pub struct WorkReport {
     pub primitive_tests: u64,
     /// Tests that a mailbox made unnecessary.
     pub mailbox_skips: u64,
+    /// Lists skipped as a whole, which an octree's leaves share.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub list_skips: u64,
     /// Nodes or cells looked at.
     pub traversal_steps: u64,
     /// Leaves or cells entered.
@@ -315,6 +327,7 @@ impl WorkReport {
         Self {
             primitive_tests: counters.primitive_tests,
             mailbox_skips: counters.mailbox_skips,
+            list_skips: counters.list_skips,
             traversal_steps: counters.steps,
             leaves_visited: counters.leaves,
             empty_leaves_visited: counters.empty_leaves,

@@ -117,9 +117,10 @@ pub type Answer = (Option<(u64, usize)>, bool);
 pub fn answers<R: Real, S: Shapes<R>>(
     accel: &Any<'_, R>,
     scene: &Scene<'_, R, S>,
-    mut mailbox: mailbox::AnyMailbox<'_>,
+    mailbox: mailbox::AnyMailbox<'_>,
     shots: &[Shot<R>],
 ) -> Vec<Answer> {
+    let mut mailbox = mailbox::Lists::new(mailbox, true);
     let mut answer = |(ray, interval): &Shot<R>| {
         let hit = accel.nearest(scene, ray, *interval, &mut mailbox, &mut ());
         let any = accel.occluded(scene, ray, *interval, &mut mailbox, &mut ());
@@ -191,8 +192,18 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
             grid::Settings { huge: Huge::Aside, overlap, ..grid::Settings::new(resolution) };
         setups.push((Kind::Grid(exact), mailbox, UNLIMITED));
         let mut exact = settings(1, 6, Huge::Aside);
-        exact.growth.overlap = overlap;
+        exact.growth.lists.overlap = overlap;
         setups.push((Kind::Octree(exact), mailbox, budget));
+    }
+    for (overlap, order, budget, mailbox) in [
+        (Overlap::Box, octree::Order::Breadth, 8 << 10, Off),
+        (Overlap::Exact, octree::Order::Benefit, 24 << 10, Cache),
+        (Overlap::Box, octree::Order::Breadth, UNLIMITED, Stamps),
+    ] {
+        let mut shared = settings(1, 6, Huge::Aside);
+        shared.growth.lists = octree::Lists { overlap, shared: true };
+        shared.growth.order = order;
+        setups.push((Kind::Octree(shared), mailbox, budget));
     }
     for mailbox in [Off, Stamps, Cache] {
         for kind in [

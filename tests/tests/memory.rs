@@ -131,8 +131,8 @@ fn the_footprint_is_the_high_water_mark() {
             Kind::Grid(grid::Settings { overlap: Overlap::Exact, ..grid::Settings::new([15; 3]) }),
             {
                 let limits = octree::Limits { max_objects: 3, max_level: 5 };
-                let growth =
-                    octree::Growth { overlap: Overlap::Exact, ..octree::Growth::new(limits) };
+                let lists = octree::Lists { overlap: Overlap::Exact, shared: false };
+                let growth = octree::Growth { lists, ..octree::Growth::new(limits) };
                 Kind::Octree(octree::Settings { growth, ..limits.into() })
             },
             Kind::Bvh(0),

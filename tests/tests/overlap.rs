@@ -159,7 +159,7 @@ fn conform<R: Real>(number: &str, worlds: u64, rays: usize) {
         let grid =
             |overlap| Kind::Grid(grid::Settings { overlap, ..grid::Settings::new([23, 29, 31]) });
         let mut octree: octree::Settings = octree::Limits { max_objects: 0, max_level: 6 }.into();
-        octree.growth.overlap = Overlap::Exact;
+        octree.growth.lists.overlap = Overlap::Exact;
         let mut references = vec![];
         for kind in [grid(Overlap::Box), grid(Overlap::Exact), Kind::Octree(octree)] {
             let mut arena = Arena::new(memory.bytes(UNLIMITED));

@@ -37,9 +37,14 @@ pub enum Overlap {
 pub trait Listing: Copy + core::fmt::Debug + Default {
     /// When a shape is listed in a cell.
     fn overlap(self) -> Overlap;
+
+    /// Whether leaves of an octree with equal lists share one.
+    fn shares(self) -> bool {
+        false
+    }
 }
 
-/// The plain way: a shape is listed where its box touches the cell.
+/// The plain way: a shape is listed where its box touches the cell, and every cell has its own list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ByBox;
 

@@ -32,6 +32,12 @@ pub trait Visitor<R: Real> {
     /// What lies beyond this parameter is of no interest any more.
     fn limit(&self) -> R;
 
+    /// Whether the shapes of a list that has this number still have to be visited. A list that has
+    /// been answered for counts as visited.
+    fn admit_list(&mut self, _list: usize) -> bool {
+        true
+    }
+
     /// Shapes that the ray may meet.
     fn visit(&mut self, ids: impl Iterator<Item = usize>);
 
@@ -292,6 +298,14 @@ impl<R: Real, S: Shapes<R>, M: Mailbox, P: Probe, G: Goal<R>> Visitor<R>
 
     fn limit(&self) -> R {
         self.limit
+    }
+
+    fn admit_list(&mut self, list: usize) -> bool {
+        let admitted = self.mailbox.admit_list(list);
+        if !admitted {
+            self.probe.list_skip();
+        }
+        admitted
     }
 
     fn visit(&mut self, ids: impl Iterator<Item = usize>) {

@@ -50,6 +50,11 @@ impl<'s, F: Pod, B: Pod> Ends<'s, F, B> {
         self.back = self.back.saturating_sub(count);
     }
 
+    /// Gives the last `count` elements of the front stack up.
+    pub fn shrink_front(&mut self, count: usize) {
+        self.front = self.front.saturating_sub(count);
+    }
+
     /// Elements of the front stack.
     pub fn front_len(&self) -> usize {
         self.front

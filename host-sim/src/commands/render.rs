@@ -10,7 +10,7 @@ use super::stage::{self, DEFAULT_RAM, Stage};
 use crate::description::demo;
 use crate::engine::Picture;
 use crate::image::HeatMap;
-use crate::options::{Cli, Command, Number, Render};
+use crate::options::{Cli, Command, Number, Render, Skip};
 use crate::picture::{self, Rendered};
 use crate::report::{ImageReport, RaysReport, Report};
 use crate::terminal::{self, Outcome};
@@ -82,9 +82,13 @@ fn render<R: Real>(
     let camera = Camera::new(tables.view(), aspect)?;
     let settings = Settings {
         max_depth: options.max_depth,
-        secondary: Secondary::Contributing,
+        secondary: if options.common.no_skip.contains(&Skip::Contribution) {
+            Secondary::All
+        } else {
+            Secondary::Contributing
+        },
         cutoff: R::from_f64(options.cutoff),
-        shadow_cache: !options.no_shadow_cache,
+        shadow_cache: !options.no_shadow_cache && !options.common.no_skip.contains(&Skip::Occluder),
     };
     let plan = built.plan;
     let bar = super::progress(height.into(), "rows");

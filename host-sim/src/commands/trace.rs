@@ -4,14 +4,13 @@ use std::io::{self, Write};
 
 use anyhow::Context;
 use kibiray::accel::Accel;
-use kibiray::accel::mailbox::AnyMailbox;
 use kibiray::num::{Fixed, Real, Vector};
 use kibiray::probe::{Counters, Probe};
 use kibiray::scene::Scene;
 
 use super::stage::{self, DEFAULT_RAM, Stage};
 use super::{Usage, shown};
-use crate::engine::{Built, Picture, fastest, share};
+use crate::engine::{Built, HostMailbox, Picture, fastest, share};
 use crate::frame::{Frame, Way};
 use crate::options::{Number, Trace};
 use crate::rays;
@@ -46,7 +45,7 @@ const BATCH: usize = 1024;
 
 /// A thread's mailbox and its counters.
 struct Worker<'a> {
-    mailbox: AnyMailbox<'a>,
+    mailbox: HostMailbox<'a>,
     counters: Counters,
     rays: RaysReport,
 }
@@ -101,7 +100,7 @@ impl<R: Real> Asker<'_, R> {
     fn ask(
         &self,
         query: &Query<R>,
-        mailbox: &mut AnyMailbox<'_>,
+        mailbox: &mut HostMailbox<'_>,
         probe: &mut impl Probe,
     ) -> Answer<R> {
         let Ok(ray) = &query.ray else { return Answer::Invalid };

@@ -1,8 +1,8 @@
 //! An octree whose storage and walk are chosen while the program runs.
 
-use super::{Growth, Hashed, Limits, Links, Octree, StoppedBy, Walk};
+use super::{Growth, Hashed, Limits, Links, Lists, Octree, StoppedBy, Walk};
 use crate::accel::listing::Aside;
-use crate::accel::{Accel, BuildError, Id, Overlap, Visitor};
+use crate::accel::{Accel, BuildError, Id, Visitor};
 use crate::geom::Ray;
 use crate::memory::{Arena, Footprint};
 use crate::num::Real;
@@ -22,7 +22,7 @@ pub enum Store {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// How it grows.
-    pub growth: Growth<Overlap>,
+    pub growth: Growth<Lists>,
     /// How cells are stored.
     pub store: Store,
     /// How a ray gets from leaf to leaf.

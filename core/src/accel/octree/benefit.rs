@@ -73,11 +73,14 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         if best < least {
             return best;
         }
-        let entries: usize = self.counts(cursor, place).iter().sum();
+        let (counts, equal) = self.counts(cursor, place);
+        let entries: usize = counts.iter().sum();
+        let own = |(count, equal): (&usize, &u32)| if *equal == 0 { *count } else { 0 };
+        let stored: usize = counts.iter().zip(&equal).map(own).sum();
         // A child has a quarter of the surface, so of the rays that come through a cell a quarter
         // comes through each of its children: two more leaves, and a cell that is no leaf.
         let saved = (4 * count).saturating_sub(entries as u64 + 4 * STEPS);
-        let more = (entries as u64).saturating_sub(count) * size_of::<I>() as u64;
+        let more = (stored as u64).saturating_sub(count) * size_of::<I>() as u64;
         benefit(saved, 4 * (block + more), cursor.level())
     }
 }

@@ -33,11 +33,32 @@ pub struct Growth<L = ByBox> {
     pub limits: Limits,
     /// What is done with shapes much larger than the others.
     pub huge: Huge,
-    /// How lists are made: [`ByBox`], or an [`Overlap`] where that is not known when the program is
+    /// How lists are made: [`ByBox`], or [`Lists`] where that is not known when the program is
     /// compiled.
-    pub overlap: L,
+    pub lists: L,
     /// Which cells are divided first.
     pub order: Order,
+}
+
+/// How an octree's lists are made, chosen while the program runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lists {
+    /// When a shape is listed in a cell.
+    pub overlap: Overlap,
+    /// Whether leaves with equal lists share one. How much that saves is not known beforehand: a
+    /// footprint is then what a build cannot exceed. See
+    /// [`mailbox::Lists`](crate::accel::mailbox::Lists).
+    pub shared: bool,
+}
+
+impl Listing for Lists {
+    fn overlap(self) -> Overlap {
+        self.overlap
+    }
+
+    fn shares(self) -> bool {
+        self.shared
+    }
 }
 
 /// Which cells are divided first: what matters when memory does not suffice for all.
@@ -55,7 +76,7 @@ pub enum Order {
 impl<L: Listing> Growth<L> {
     /// Everything is listed, in the default way; first in, first out.
     pub fn new(limits: Limits) -> Self {
-        Self { limits, huge: Huge::Inside, overlap: L::default(), order: Order::Breadth }
+        Self { limits, huge: Huge::Inside, lists: L::default(), order: Order::Breadth }
     }
 }
 
@@ -99,31 +120,23 @@ pub(super) fn room<R: Real, S: Shapes<R>, I: Id, L>(
 pub(super) fn touches<R: Real, S: Shapes<R>>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
-    overlap: impl Listing,
+    making: impl Listing,
     id: usize,
     base: [i32; 3],
     edge: i32,
 ) -> u32 {
     let (first, last) = lattice.cells_of(scene.shapes().bounds(id));
     let half = edge / 2;
-    // Bit 0: the lower half along an axis, bit 1: the upper one.
-    let halves = |first: i32, last: i32, base: i32| {
-        let lower = first < base + half && last >= base;
-        let upper = first < base + edge && last >= base + half;
-        u32::from(lower) | u32::from(upper) << 1
-    };
-    let [x, y, z] =
-        [0, 1, 2].map(|axis: usize| match (first.get(axis), last.get(axis), base.get(axis)) {
-            (Some(first), Some(last), Some(base)) => halves(*first, *last, *base),
-            _ => 0,
-        });
-    let spread = |halves: u32, lower: u32, upper: u32| {
-        (if halves & 1 != 0 { lower } else { 0 }) | (if halves & 2 != 0 { upper } else { 0 })
-    };
-    let touched = spread(x, 0b0101_0101, 0b1010_1010)
-        & spread(y, 0b0011_0011, 0b1100_1100)
-        & spread(z, 0b0000_1111, 0b1111_0000);
-    if overlap.overlap() == Overlap::Box {
+    // The octants that are upper halves along each axis.
+    const UPPER: [u32; 3] = [0b1010_1010, 0b1100_1100, 0b1111_0000];
+    let mut touched = 0b1111_1111;
+    for (((first, last), base), upper) in first.iter().zip(last).zip(base).zip(UPPER) {
+        let middle = base + half;
+        let below = if *first < middle && last >= base { !upper } else { 0 };
+        let above = if *first < base + edge && last >= middle { upper } else { 0 };
+        touched &= below | above;
+    }
+    if making.overlap() == Overlap::Box {
         return touched;
     }
     let [x, y, z] = base;
@@ -139,14 +152,14 @@ pub(super) fn touches<R: Real, S: Shapes<R>>(
 pub(super) fn is_listed<R: Real, S: Shapes<R>>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
-    overlap: impl Listing,
+    making: impl Listing,
     id: usize,
     base: [i32; 3],
     edge: i32,
 ) -> bool {
     let [all, _, _] = lattice.count();
     touches(lattice, scene, ByBox, id, base, edge) != 0
-        && (overlap.overlap() == Overlap::Box
+        && (making.overlap() == Overlap::Box
             || edge == all
             || scene.shapes().overlaps(id, &lattice.room(base, [edge; 3])))
 }
@@ -189,9 +202,9 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
 
         let ends = arena.scratch::<C::Block, I>();
         let (root, max_level) = (Content::List(0), 0);
-        let overlap = growth.overlap;
+        let making = growth.lists;
         let mut growing =
-            Growing::<R, S, I, C, L> { lattice, scene, overlap, limits, root, max_level, ends };
+            Growing::<R, S, I, C, L> { lattice, scene, making, limits, root, max_level, ends };
         growing.plant(shapes, &aside);
         let grown = match growth.order {
             Order::Breadth => growing.grow(),
@@ -221,7 +234,7 @@ pub(super) enum Refusal {
 pub(super) struct Growing<'g, 's, 'm, R: Real, S, I, C: Storage<'m>, L> {
     lattice: Lattice<R>,
     scene: &'g Scene<'s, R, S>,
-    overlap: L,
+    pub(super) making: L,
     pub(super) limits: Limits,
     root: Content,
     /// Level of the deepest leaf.
@@ -289,7 +302,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         C::words(families.get(family)?).get(octant).copied().map(Content::of)
     }
 
-    fn set(&mut self, slot: Slot, content: Content) {
+    pub(super) fn set(&mut self, slot: Slot, content: Content) {
         let Slot::Child(family, octant) = slot else {
             self.root = content;
             return;
@@ -318,19 +331,31 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         }
     }
 
-    /// How many shapes of a list each child of a cell would list.
-    pub(super) fn counts(&mut self, cursor: &Cursor, place: usize) -> [usize; 8] {
+    /// How many shapes of a list each child of a cell would list, and which of the children before it
+    /// would list the same, as bits.
+    pub(super) fn counts(&mut self, cursor: &Cursor, place: usize) -> ([usize; 8], [u32; 8]) {
         let (base, edge) = cursor.code().place(self.limits.max_level);
-        let (lattice, scene, overlap) = (self.lattice, self.scene, self.overlap);
+        let (lattice, scene, making) = (self.lattice, self.scene, self.making);
         let mut counts = [0_usize; 8];
+        // Bit b of number a: whether a shape is in one of the lists of a and b only.
+        let mut differ = [0_u32; 8];
         let (_, lists) = self.ends.both();
         for id in list_at(lists, place) {
-            let octants = touches(&lattice, scene, overlap, id.get(), base, edge);
-            for (octant, count) in counts.iter_mut().enumerate() {
+            let octants = touches(&lattice, scene, making, id.get(), base, edge);
+            for (octant, (count, differ)) in counts.iter_mut().zip(&mut differ).enumerate() {
                 *count += (octants >> octant & 1) as usize;
+                if making.shares() {
+                    *differ |= if octants >> octant & 1 != 0 { !octants } else { octants };
+                }
             }
         }
-        counts
+        let mut equal = [0; 8];
+        if making.shares() {
+            for (octant, (equal, differ)) in equal.iter_mut().zip(differ).enumerate() {
+                *equal = !differ & ((1 << octant) - 1);
+            }
+        }
+        (counts, equal)
     }
 
     /// Divides a leaf; changes nothing when that does not fit.
@@ -338,11 +363,14 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         let slot = cursor.slot();
         let Some(Content::List(place)) = self.content(slot) else { return Ok(()) };
         let (base, edge) = cursor.code().place(self.limits.max_level);
-        let (lattice, scene, overlap) = (self.lattice, self.scene, self.overlap);
-        let octants = |id: &I| touches(&lattice, scene, overlap, id.get(), base, edge);
+        let (lattice, scene, making) = (self.lattice, self.scene, self.making);
+        let octants = |id: &I| touches(&lattice, scene, making, id.get(), base, edge);
 
-        let counts = self.counts(cursor, place);
-        let entries: usize = counts.iter().map(|count| count + usize::from(*count > 0)).sum();
+        let (counts, equal) = self.counts(cursor, place);
+        let is_own = |equal: u32| !making.shares() || equal == 0;
+        let own = |(count, equal): (&usize, &u32)| if is_own(*equal) { *count } else { 0 };
+        let entries_of = |count: usize| count + usize::from(count > 0);
+        let entries: usize = counts.iter().zip(&equal).map(own).map(entries_of).sum();
         let (number, old) = (self.ends.front_len(), self.ends.back_len());
         let greatest = number.max(old + entries);
         if greatest > most::<C::Word>() {
@@ -359,13 +387,27 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         // The first child's list is the oldest of the new ones: it lies last.
         let mut end = old;
         let mut next = [0; 8];
-        for ((count, child), next) in counts.iter().zip(C::words_mut(family)).zip(&mut next) {
+        let mut places = [0; 8];
+        let children = C::words_mut(family).iter_mut().zip(&mut next);
+        for (octant, ((count, equal), (child, next))) in
+            counts.iter().zip(&equal).zip(children).enumerate()
+        {
             *child = Content::List(0).word();
             if *count == 0 {
                 continue;
             }
+            if !is_own(*equal) {
+                let first = equal.trailing_zeros() as usize;
+                *child = Content::List(places.get(first).copied().unwrap_or_default()).word();
+                continue;
+            }
             end += count + 1;
             *child = Content::List(end).word();
+            if making.shares()
+                && let Some(place) = places.get_mut(octant)
+            {
+                *place = end;
+            }
             let start = new.len().saturating_sub(end - old);
             if let Some(length) = new.get_mut(start) {
                 *length = I::new(*count);
@@ -374,8 +416,8 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         }
         for id in list_at(old_lists, place) {
             let octants = octants(id);
-            for (octant, next) in next.iter_mut().enumerate() {
-                if octants >> octant & 1 != 0 {
+            for (octant, (next, equal)) in next.iter_mut().zip(&equal).enumerate() {
+                if octants >> octant & 1 != 0 && is_own(*equal) {
                     if let Some(place) = new.get_mut(*next) {
                         *place = *id;
                     }
@@ -388,38 +430,13 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         Ok(())
     }
 
-    /// Moves the lists that are still needed together, oldest first, and gives up the rest.
-    pub(super) fn close_gaps(&mut self) {
-        let mut end = 0;
-        let mut slot = Slot::Root;
-        while let Some(content) = self.content(slot) {
-            if let Content::List(place) = content
-                && place > 0
-            {
-                let entries = self.count(place) + 1;
-                let (_, lists) = self.ends.both();
-                let from = lists.len().saturating_sub(place);
-                end += entries;
-                // Lists only ever move towards the end.
-                let behind = end.saturating_sub(entries);
-                let until = lists.len().saturating_sub(behind);
-                if let Some(span) = lists.get_mut(from..until)
-                    && let Some(to) = span.len().checked_sub(entries)
-                {
-                    span.copy_within(..entries, to);
-                }
-                self.set(slot, Content::List(end));
-            }
-            slot = slot.next();
-        }
-        let unused = self.ends.back_len().saturating_sub(end);
-        self.ends.shrink_back(unused);
-    }
-
     /// Brings everything to where it stays. Gives the root, the number of families and that of list
     /// entries.
     fn close_up(mut self) -> (Content, usize, usize) {
         self.close_gaps();
+        if self.making.shares() {
+            self.share();
+        }
         let (families, entries) = (self.ends.front_len(), self.ends.back_len());
         self.ends.close_up(C::index_bytes(families));
         (self.root, families, entries)

@@ -11,6 +11,14 @@ pub(super) enum Slot {
 }
 
 impl Slot {
+    /// Whether it is the root's, or in one of the first so many families.
+    pub(super) fn is_within(self, families: usize) -> bool {
+        match self {
+            Self::Root => true,
+            Self::Child(family, _) => family < families,
+        }
+    }
+
     /// The slot that came to be after this one.
     pub(super) fn next(self) -> Self {
         match self {

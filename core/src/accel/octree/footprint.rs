@@ -47,7 +47,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         while let Some(code) = next {
             let (base, edge) = code.place(deepest);
             let shapes = (0..scene.shapes().bounded()).filter(|id| !aside.contains(*id));
-            let inside = |id: &usize| is_listed(&lattice, scene, growth.overlap, *id, base, edge);
+            let inside = |id: &usize| is_listed(&lattice, scene, growth.lists, *id, base, edge);
             let count = shapes.filter(inside).count();
             let entries = count + usize::from(count > 0);
             let divide = count > limits.max_objects && code.level() < deepest;
@@ -67,11 +67,15 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             peak = peak.max(bytes::<C, I>(families, lists));
             above += level.staying;
         }
+        if growth.lists.shares() {
+            // The table in which equal lists are found.
+            peak = peak.max(bytes::<C, I>(2 * families, above));
+        }
         if growth.order == Order::Benefit {
             // Every list that there ever is, at once.
             let all = levels.iter().map(|level| level.passing + level.staying).sum();
             most_entries = all;
-            peak = bytes::<C, I>(families, all);
+            peak = peak.max(bytes::<C, I>(families, all));
         }
         let greatest = most_entries.max(families.saturating_sub(1));
         BuildError::unless_above("octree list entries", greatest, most::<C::Word>())?;

@@ -16,11 +16,12 @@ mod build;
 mod code;
 mod cursor;
 mod footprint;
+mod gaps;
 mod storage;
 mod walk;
 
 pub use any::{AnyOctree, Settings, Store};
-pub use build::{Growth, Limits, Order, StoppedBy};
+pub use build::{Growth, Limits, Lists, Order, StoppedBy};
 pub use code::DEEPEST;
 pub use storage::{Content, Hashed, Links, Storage};
 pub use walk::{By, Walk};
@@ -85,11 +86,18 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             })
     }
 
-    /// The list of a leaf; nothing for a divided cell.
-    fn list(&self, cell: C::Cell) -> &'m [I] {
+    /// Bytes that leaves would take more if each had a list of its own.
+    pub fn shared_bytes(&self) -> usize {
+        let entries = |list: &[I]| list.len() + usize::from(!list.is_empty());
+        let all: usize = self.leaves().map(entries).sum();
+        (all - self.lists.len()) * size_of::<I>()
+    }
+
+    /// The place of a leaf's list, and the list; nothing for a divided cell.
+    fn list(&self, cell: C::Cell) -> (usize, &'m [I]) {
         match C::content(cell) {
-            Content::List(place) => list_at(self.lists, place),
-            Content::Family(_) => &[],
+            Content::List(place) => (place, list_at(self.lists, place)),
+            Content::Family(_) => (0, &[]),
         }
     }
 }

@@ -125,7 +125,7 @@ fn measure<R: Real>(
     let accel = Any::build(kind, &exact_scene, &mut memory.arena())?;
     let exact = Exact { scene: &exact_scene, accel };
 
-    let mut off = mailbox::AnyMailbox::Off;
+    let mut off = mailbox::Lists::new(mailbox::AnyMailbox::Off, false);
     let mailbox = built.mailboxes.first_mut().unwrap_or(&mut off);
     let accel = &built.accel;
     let pass = fastest(options.repeat + 1, || {

@@ -98,9 +98,11 @@ fn test<'m, R: Real, I: Id, C: Storage<'m>, V: Visitor<R>>(
     (leaf, exit): Piece<C::Cell, R>,
     visitor: &mut V,
 ) -> bool {
-    let list = octree.list(leaf);
+    let (place, list) = octree.list(leaf);
     visitor.probe().leaf(list.is_empty());
-    listing::visit(list, visitor);
+    if !list.is_empty() && visitor.admit_list(place) {
+        listing::visit(list, visitor);
+    }
     visitor.limit() > exit
 }
 
