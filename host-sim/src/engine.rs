@@ -91,6 +91,7 @@ pub fn wishes(options: &Common) -> Wishes {
         store: options.store.map(|store| match store {
             Store::Links => octree::Store::Links,
             Store::Hash => octree::Store::Hashed,
+            Store::Implicit => octree::Store::Implicit,
         }),
         walk: options.walk.and_then(|walk| match walk {
             Walk::Restart => Some(octree::Walk::Restart),

@@ -513,6 +513,8 @@ pub enum Store {
     Links,
     #[value(help = "children are found by name, as Glassner's (1984)")]
     Hash,
+    #[value(help = "in breadth-first order, with two bits a cell in place of links")]
+    Implicit,
 }
 
 /// `--walk`.

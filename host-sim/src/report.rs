@@ -139,6 +139,7 @@ impl AccelReport {
             Any::Bvh(bvh) => Self::bvh(bvh),
             Any::LargeBvh(bvh) => Self::bvh(bvh),
             Any::Octree(octree) => match octree {
+                AnyOctree::Implicit(octree, _) => Self::octree(octree),
                 AnyOctree::Small(octree, _) => Self::octree(octree),
                 AnyOctree::Medium(octree, _) => Self::octree(octree),
                 AnyOctree::Large(octree, _) => Self::octree(octree),

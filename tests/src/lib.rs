@@ -167,10 +167,12 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         setups.push((Kind::Bvh(nodes), Off, UNLIMITED));
     }
     setups.push((Kind::Bvh(bvh::nodes_within::<u32>(shapes, 16 << 10)), Cache, 16 << 10));
-    use octree::{Store::Hashed, Store::Links, Walk};
+    use octree::{Store::Hashed, Store::Implicit, Store::Links, Walk};
     for (store, walk) in [
         (Hashed, Walk::Restart),
         (Hashed, Walk::Descent),
+        (Implicit, Walk::Neighbours),
+        (Implicit, Walk::Descent),
         (Links, Walk::Restart),
         (Links, Walk::Neighbours),
         (Links, Walk::Segments),

@@ -113,6 +113,7 @@ fn the_footprint_is_the_high_water_mark() {
             Kind::Octree(octree::Settings { growth, store, ..limits.into() })
         };
         let octree = |objects, level| stored(objects, level, octree::Store::Links);
+        let implicit = |objects, level| stored(objects, level, octree::Store::Implicit);
         let hashed = |objects, level| stored(objects, level, octree::Store::Hashed);
         let kinds = [
             Kind::Naive,
@@ -140,6 +141,9 @@ fn the_footprint_is_the_high_water_mark() {
             Kind::Bvh(usize::MAX),
             // More list entries than words of 16 bits number.
             octree(1, 6),
+            implicit(1, 1),
+            implicit(1, 3),
+            implicit(8, 4),
             hashed(1, 4),
             hashed(8, 5),
         ];

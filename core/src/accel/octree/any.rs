@@ -1,6 +1,6 @@
 //! An octree whose storage and walk are chosen while the program runs.
 
-use super::{Growth, Hashed, Limits, Links, Lists, Octree, StoppedBy, Walk};
+use super::{Growth, Hashed, Implicit, Limits, Links, Lists, Octree, StoppedBy, Walk};
 use crate::accel::listing::Aside;
 use crate::accel::{Accel, BuildError, Id, Visitor};
 use crate::geom::Ray;
@@ -16,6 +16,9 @@ pub enum Store {
     Links,
     /// [`Hashed`].
     Hashed,
+    /// [`Implicit`] for up to 65,535 shapes and 32,767 list entries, and breadth-first; beyond that,
+    /// [`Links`].
+    Implicit,
 }
 
 /// All that is chosen about an octree while the program runs.
@@ -45,6 +48,8 @@ pub enum AnyOctree<'m, R: Real> {
     Medium(Octree<'m, R, u16, Links<'m, u32>>, Walk),
     /// More shapes.
     Large(Octree<'m, R, u32, Links<'m, u32>>, Walk),
+    /// In order, up to 65,535 shapes and 32,767 list entries.
+    Implicit(Octree<'m, R, u16, Implicit<'m>>, Walk),
     /// In a hash table, up to 65,535 shapes.
     Hashed(Octree<'m, R, u16, Hashed<'m>>, Walk),
     /// In a hash table, more shapes.
@@ -69,7 +74,17 @@ impl<'m, R: Real> AnyOctree<'m, R> {
                 }
                 octree => Self::Small(octree?, walk),
             },
-            Store::Links => Self::Large(Octree::build(scene, growth, arena)?, walk),
+            Store::Implicit if narrow => {
+                match Octree::build_in_words(scene, growth, arena, false) {
+                    Err(BuildError::TooMany { .. }) => {
+                        Self::Medium(Octree::build(scene, growth, arena)?, walk)
+                    }
+                    octree => Self::Implicit(octree?, walk),
+                }
+            }
+            Store::Links | Store::Implicit => {
+                Self::Large(Octree::build(scene, growth, arena)?, walk)
+            }
             Store::Hashed if narrow => Self::Hashed(Octree::build(scene, growth, arena)?, walk),
             Store::Hashed => Self::LargeHashed(Octree::build(scene, growth, arena)?, walk),
         })
@@ -91,7 +106,17 @@ impl<'m, R: Real> AnyOctree<'m, R> {
                 }
                 footprint => footprint,
             },
-            Store::Links => Octree::<R, u32, Links<'_, u32>>::footprint(scene, growth),
+            Store::Implicit if narrow => {
+                match Octree::<R, u16, Implicit<'_>>::footprint(scene, growth) {
+                    Err(BuildError::TooMany { .. }) => {
+                        Octree::<R, u16, Links<'_, u32>>::footprint(scene, growth)
+                    }
+                    footprint => footprint,
+                }
+            }
+            Store::Links | Store::Implicit => {
+                Octree::<R, u32, Links<'_, u32>>::footprint(scene, growth)
+            }
             Store::Hashed if narrow => Octree::<R, u16, Hashed<'_>>::footprint(scene, growth),
             Store::Hashed => Octree::<R, u32, Hashed<'_>>::footprint(scene, growth),
         }
@@ -117,6 +142,7 @@ impl<'m, R: Real> AnyOctree<'m, R> {
             Self::Small(octree, _) => octree.stopped_by(),
             Self::Medium(octree, _) => octree.stopped_by(),
             Self::Large(octree, _) => octree.stopped_by(),
+            Self::Implicit(octree, _) => octree.stopped_by(),
             Self::Hashed(octree, _) => octree.stopped_by(),
             Self::LargeHashed(octree, _) => octree.stopped_by(),
         }
@@ -129,6 +155,7 @@ impl<R: Real> Accel<R> for AnyOctree<'_, R> {
             Self::Small(octree, walk) => octree.by(*walk).walk(ray, visitor),
             Self::Medium(octree, walk) => octree.by(*walk).walk(ray, visitor),
             Self::Large(octree, walk) => octree.by(*walk).walk(ray, visitor),
+            Self::Implicit(octree, walk) => octree.by(*walk).walk(ray, visitor),
             Self::Hashed(octree, walk) => octree.by(*walk).walk(ray, visitor),
             Self::LargeHashed(octree, walk) => octree.by(*walk).walk(ray, visitor),
         }

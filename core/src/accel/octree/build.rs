@@ -207,8 +207,8 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             Growing::<R, S, I, C, L> { lattice, scene, making, limits, root, max_level, ends };
         growing.plant(shapes, &aside);
         let grown = match growth.order {
-            Order::Breadth => growing.grow(),
-            Order::Benefit => growing.grow_by_benefit(),
+            Order::Benefit if C::ANY_ORDER => growing.grow_by_benefit(),
+            _ => growing.grow(),
         };
         let stopped_by = match grown {
             Ok(stopped_by) => stopped_by,
@@ -216,8 +216,8 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             Err(_) => StoppedBy::Memory,
         };
         let max_level = growing.max_level;
-        let (root, families, entries) = growing.close_up();
-        let cells = C::keep(root.word::<C::Word>(), families, arena)?;
+        let (root, families, blocks, entries) = growing.close_up();
+        let cells = C::keep(root.word::<C::Word>(), families, blocks, arena)?;
         let lists: &mut [I] = arena.keep("octree lists", entries)?;
         let deepest = limits.max_level;
         Ok(Self { lattice, deepest, max_level, stopped_by, cells, lists, aside })
@@ -430,15 +430,17 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         Ok(())
     }
 
-    /// Brings everything to where it stays. Gives the root, the number of families and that of list
-    /// entries.
-    fn close_up(mut self) -> (Content, usize, usize) {
+    /// Brings everything to where it stays. Gives the root, the number of families, that of the blocks
+    /// that they take, and that of list entries.
+    fn close_up(mut self) -> (Content, usize, usize, usize) {
         self.close_gaps();
         if self.making.shares() {
             self.share();
         }
         let (families, entries) = (self.ends.front_len(), self.ends.back_len());
+        let blocks = C::pack(self.ends.both().0);
+        self.ends.shrink_front(families - blocks);
         self.ends.close_up(C::index_bytes(families));
-        (self.root, families, entries)
+        (self.root, families, blocks, entries)
     }
 }

@@ -18,6 +18,8 @@ struct Level {
     passing: usize,
     /// Entries of the lists of leaves, lengths included.
     staying: usize,
+    /// Leaves that list something.
+    full: usize,
 }
 
 /// Bytes of so many families with what finds them, and so many list entries.
@@ -53,6 +55,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             let divide = count > limits.max_objects && code.level() < deepest;
             if let Some(level) = levels.get_mut(code.level() as usize) {
                 level.divided += usize::from(divide);
+                level.full += usize::from(!divide && count > 0);
                 *(if divide { &mut level.passing } else { &mut level.staying }) += entries;
             }
             next = if divide { Some(code.child(0)) } else { code.next() };
@@ -71,7 +74,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             // The table in which equal lists are found.
             peak = peak.max(bytes::<C, I>(2 * families, above));
         }
-        if growth.order == Order::Benefit {
+        if growth.order == Order::Benefit && C::ANY_ORDER {
             // Every list that there ever is, at once.
             let all = levels.iter().map(|level| level.passing + level.staying).sum();
             most_entries = all;
@@ -79,6 +82,10 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         }
         let greatest = most_entries.max(families.saturating_sub(1));
         BuildError::unless_above("octree list entries", greatest, most::<C::Word>())?;
-        Ok(Footprint { kept: bytes::<C, I>(families, above), peak })
+        // The root is no one's child.
+        let full: usize = levels.iter().skip(1).map(|level| level.full).sum();
+        let blocks = C::packed(families, full);
+        let kept = ends_bytes::<C::Block, I>(blocks, above, C::index_bytes(families));
+        Ok(Footprint { kept, peak })
     }
 }

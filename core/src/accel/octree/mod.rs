@@ -5,8 +5,8 @@
 //! leaves that it passes, in order.
 //!
 //! How cells are stored and how a ray gets from leaf to leaf are chosen independently:
-//! * [`Storage`]: [`Links`], where a divided cell's word says where its children are, or [`Hashed`],
-//!   where they are found by name, as Glassner's;
+//! * [`Storage`]: [`Links`], where a divided cell's word says where its children are, [`Hashed`], where
+//!   they are found by name, as Glassner's, or [`Implicit`], where their order tells;
 //! * [`Walk`]: from the root every time, as Glassner's, or by one of the later ways. The octree's
 //!   own [`Accel::walk`] is [`Walk::Descent`]; [`Octree::by`] takes another.
 
@@ -17,12 +17,14 @@ mod code;
 mod cursor;
 mod footprint;
 mod gaps;
+mod implicit;
 mod storage;
 mod walk;
 
 pub use any::{AnyOctree, Settings, Store};
 pub use build::{Growth, Limits, Lists, Order, StoppedBy};
 pub use code::DEEPEST;
+pub use implicit::Implicit;
 pub use storage::{Content, Hashed, Links, Storage};
 pub use walk::{By, Walk};
 
@@ -62,7 +64,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
 
     /// Number of divided cells.
     pub fn interior_nodes(&self) -> usize {
-        self.cells.families().len()
+        self.cells.count()
     }
 
     /// Number of shapes kept beside it.
@@ -76,14 +78,16 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
     }
 
     /// The lists of all leaves, empty ones included, in the order in which they came to be.
-    pub fn leaves(&self) -> impl Iterator<Item = &'m [I]> {
-        let words = self.cells.families().iter().flat_map(|block| C::words(block).iter());
-        core::iter::once(C::content(self.cells.root()))
-            .chain(words.map(|word| Content::of(*word)))
-            .filter_map(|content| match content {
+    pub fn leaves(&self) -> impl Iterator<Item = &'m [I]> + use<'_, 'm, R, I, C> {
+        let families = (0..self.cells.count()).filter_map(|number| self.cells.family(number));
+        let children =
+            families.flat_map(|family| (0..8).map(move |octant| C::child(family, octant)));
+        core::iter::once(self.cells.root()).chain(children).filter_map(|cell| {
+            match C::content(cell) {
                 Content::List(place) => Some(list_at(self.lists, place)),
                 Content::Family(_) => None,
-            })
+            }
+        })
     }
 
     /// Bytes that leaves would take more if each had a list of its own.

@@ -1,4 +1,5 @@
-//! How an octree's cells are stored: by links, or by names in a hash table.
+//! How an octree's cells are stored: by links, by names in a hash table, or implied by their order
+//! ([`Implicit`](super::Implicit)).
 //!
 //! Either way a cell is a *word*, and the words of the eight children of a divided cell lie together
 //! as a *family*. A word's highest bit says whether its cell is divided. The rest is the number of
@@ -60,8 +61,10 @@ pub trait Storage<'m>: Debug + Sized {
     fn child(family: Self::Family, octant: u32) -> Self::Cell;
     /// What a cell's word says.
     fn content(cell: Self::Cell) -> Content;
-    /// All families, oldest first.
-    fn families(&self) -> &'m [Self::Block];
+    /// Number of families.
+    fn count(&self) -> usize;
+    /// The family of a number: the oldest has 0.
+    fn family(&self, number: usize) -> Option<Self::Family>;
     /// The words of a family's children.
     fn words(block: &Self::Block) -> &[Self::Word; 8];
     /// The words of a family's children.
@@ -72,11 +75,27 @@ pub trait Storage<'m>: Debug + Sized {
     fn index_bytes(_families: usize) -> usize {
         0
     }
-    /// Keeps families that a build left at the front of an arena.
+    /// Whether families may be numbered in another order than that of the cells whose children they
+    /// are. Where not, octrees grow breadth-first.
+    const ANY_ORDER: bool = true;
+    /// Brings families into the form in which they stay; the number of blocks that they take then.
+    fn pack(families: &mut [Self::Block]) -> usize {
+        families.len()
+    }
+    /// What [`Storage::pack`] gives for so many families with so many leaves that list something.
+    fn packed(families: usize, _full_leaves: usize) -> usize {
+        families
+    }
+    /// Keeps so many families, packed into so many blocks, that a build left at the front of an arena.
     ///
     /// # Errors
     /// [`OutOfArena`].
-    fn keep(root: Self::Word, families: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena>;
+    fn keep(
+        root: Self::Word,
+        families: usize,
+        blocks: usize,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, OutOfArena>;
 }
 
 /// Words name their families by number: going down takes one access. 8 words a divided cell.
@@ -111,8 +130,12 @@ impl<'m, W: Id> Storage<'m> for Links<'m, W> {
         Content::of(cell)
     }
 
-    fn families(&self) -> &'m [[W; 8]] {
-        self.families
+    fn count(&self) -> usize {
+        self.families.len()
+    }
+
+    fn family(&self, number: usize) -> Option<&'m [W; 8]> {
+        self.families.get(number)
     }
 
     fn words(block: &[W; 8]) -> &[W; 8] {
@@ -123,7 +146,7 @@ impl<'m, W: Id> Storage<'m> for Links<'m, W> {
         block
     }
 
-    fn keep(root: W, families: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
+    fn keep(root: W, families: usize, _: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
         Ok(Self { root, families: arena.keep("octree cells", families)? })
     }
 }
@@ -192,8 +215,12 @@ impl<'m> Storage<'m> for Hashed<'m> {
         Content::of(word)
     }
 
-    fn families(&self) -> &'m [Named] {
-        self.families
+    fn count(&self) -> usize {
+        self.families.len()
+    }
+
+    fn family(&self, number: usize) -> Option<&'m Named> {
+        self.families.get(number)
     }
 
     fn words(block: &Named) -> &[u32; 8] {
@@ -214,7 +241,12 @@ impl<'m> Storage<'m> for Hashed<'m> {
         slots_for(families) * size_of::<u32>()
     }
 
-    fn keep(root: u32, families: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
+    fn keep(
+        root: u32,
+        families: usize,
+        _: usize,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self, OutOfArena> {
         let families: &[Named] = arena.keep("octree cells", families)?;
         let table: &mut [u32] = arena.keep("octree table", slots_for(families.len()))?;
         table.fill(0);

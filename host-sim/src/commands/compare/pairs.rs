@@ -85,7 +85,8 @@ pub(super) fn overlap(options: &Compare, names: &[String]) -> anyhow::Result<()>
 
 pub(super) fn stores(options: &Compare, names: &[String]) -> anyhow::Result<()> {
     let of = |store| octree(UNLIMITED, |common| common.store = Some(store));
-    let variants = [("hash table".to_owned(), [Store::Links, Store::Hash].map(of))];
+    let variants = [("hash table", Store::Hash), ("implicit", Store::Implicit)]
+        .map(|(name, store)| (name.to_owned(), [Store::Links, store].map(of)));
     pairs(options, names, "Ways to store an octree, in parts of linked cells:", &variants)
 }
 
