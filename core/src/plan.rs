@@ -118,6 +118,11 @@ pub enum Reason {
         /// Bytes there are.
         available: usize,
     },
+    /// Shapes of much the same size everywhere: a grid.
+    EvenShapes {
+        /// How many there are.
+        shapes: usize,
+    },
     /// A hierarchy that takes what memory it can use.
     ManyShapes {
         /// How many there are.
@@ -141,6 +146,9 @@ impl core::fmt::Display for Reason {
                     "the smallest hierarchy takes {needed} bytes of {available}: a coarse grid"
                 )
             }
+            Self::EvenShapes { shapes } => {
+                write!(f, "{shapes} shapes of much the same size, spread evenly: a grid")
+            }
             Self::ManyShapes { shapes } => {
                 write!(f, "{shapes} shapes: a hierarchy as fine as the memory allows")
             }
@@ -160,7 +168,7 @@ pub struct Plan {
 }
 
 /// Up to this many shapes are tested one by one.
-const FEW: usize = 12;
+const FEW: usize = 4;
 
 /// Shapes in a cell of an octree that is not divided further. More than meet at most corners of a
 /// mesh: a cell around a corner lists all of them however small it is.
@@ -246,6 +254,13 @@ fn choose<R: Real, S: Shapes<R>>(
     let mailbox = wishes.mailbox.unwrap_or(mailbox::Kind::Off).footprint(shapes);
     let needed = mailbox.then(accel::Any::least(accel::Kind::Bvh(0), scene)).peak;
     if needed <= budget {
+        let mailbox = wishes.mailbox.unwrap_or(mailbox_for(shapes, budget)).footprint(shapes);
+        let room = budget.saturating_sub(mailbox.kept);
+        // In fewer cells than shapes a grid is no match for a hierarchy.
+        let is_fine = |n: [u32; 3]| n.iter().map(|n| *n as usize).product::<usize>() >= shapes;
+        if grid::suits(scene, wishes.huge()) && is_fine(grid_for(scene, wishes, room).resolution) {
+            return (Structure::Grid, Reason::EvenShapes { shapes });
+        }
         return (Structure::Bvh, Reason::ManyShapes { shapes });
     }
     let cell = accel::Kind::Grid(wishes.grid([1; 3]));

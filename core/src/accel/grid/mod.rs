@@ -12,7 +12,7 @@ mod build;
 mod distance;
 mod walk;
 
-pub use build::{resolution_for, size};
+pub use build::{resolution_for, size, suits};
 
 use super::lattice::Lattice;
 use super::listing::Aside;

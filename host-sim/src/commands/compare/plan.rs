@@ -40,7 +40,10 @@ pub(super) fn plan(options: &Compare, names: &[String]) -> anyhow::Result<()> {
             let outcomes = measure(options, &loaded, &choices)?;
             let best = outcomes.iter().map(seconds).fold(f64::INFINITY, f64::min);
             let longer = |outcome: &Outcome| 100.0 * (seconds(outcome) / best - 1.0);
-            worst = worst.max(longer(&outcomes[0]));
+            // What is chosen is measured twice when it is one of the others, too.
+            let same = |outcome: &&Outcome| structure(outcome) == structure(&outcomes[0]);
+            let chosen = outcomes.iter().filter(same).map(longer).fold(f64::INFINITY, f64::min);
+            worst = worst.max(chosen);
             let others: Vec<_> = choices
                 .iter()
                 .zip(&outcomes)
@@ -54,13 +57,19 @@ pub(super) fn plan(options: &Compare, names: &[String]) -> anyhow::Result<()> {
                 "{name:14} {:>9}  {:7} {:4.0} %   {}",
                 if ram == UNLIMITED { "unlimited".into() } else { readable(ram) },
                 outcomes[0].as_ref().map_or("none", |report| report.accel.kind),
-                longer(&outcomes[0]),
+                chosen,
                 others.join(", ")
             );
         }
     }
     println!("At worst the plan's choice takes {worst:.0} % longer.");
     Ok(())
+}
+
+/// What tells structures of a scene apart.
+fn structure(outcome: &Outcome) -> Option<(&'static str, &'static str, usize)> {
+    let report = outcome.as_ref()?;
+    Some((report.accel.kind, report.accel.mailbox, report.memory.used_bytes))
 }
 
 /// Whether any of the choices has room.
