@@ -3,7 +3,7 @@
 use super::{Grid, Settings, Size, distance, index};
 use crate::accel::lattice::{self, Lattice};
 use crate::accel::listing::Aside;
-use crate::accel::{BuildError, ByBox, Huge, Id, Listing, Overlap};
+use crate::accel::{BuildError, Huge, Id, Listing, Overlap};
 use crate::geom::Aabb;
 use crate::memory::Arena;
 use crate::num::{Real, Vector};
@@ -89,14 +89,29 @@ pub fn resolution_for<R: Real, S: Shapes<R>>(
 pub fn suits<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, huge: Huge) -> bool {
     let (root, aside) = room::<_, _, u32>(scene, huge);
     let lattice = Lattice::new(root, [4; 3], scene.pad());
-    let length = |id: usize| scene.shapes().bounds(id).size().max_abs();
-    let longest = listed(scene, &aside).fold(R::ZERO, |longest: R, id| longest.max(length(id)));
-    let (mut shapes, mut long, mut touched) = (0_usize, 0_usize, 0_u64);
-    for id in listed(scene, &aside) {
-        shapes += 1;
-        long += usize::from(length(id).times_int(4) >= longest);
-        for_cells(&lattice, scene, ByBox, id, |cell| touched |= 1 << (cell & 63));
+    let (mut longest, mut touched) = (R::ZERO, 0_u64);
+    // Lengths are looked at twice, the second time against the longest.
+    let mut counts = [0_usize; 2];
+    for pass in [false, true] {
+        for id in listed(scene, &aside) {
+            let bounds = scene.shapes().bounds(id);
+            let length = bounds.size().max_abs();
+            let [shapes, long] = &mut counts;
+            if pass {
+                *long += usize::from(length.times_int(4) >= longest);
+                continue;
+            }
+            *shapes += 1;
+            longest = longest.max(length);
+            // Cell x, y, z is bit x + 4 y + 16 z.
+            let ([x0, y0, z0], [x1, y1, z1]) = lattice.cells_of(bounds);
+            let xs = (2_u64 << x1) - (1 << x0);
+            let ys = (16_u64 << (4 * y1)) - (1 << (4 * y0));
+            let zs = u64::MAX >> (48 - 16 * z1) & u64::MAX << (16 * z0);
+            touched |= (xs * 0x1111_1111_1111_1111) & (ys * 0x0001_0001_0001_0001) & zs;
+        }
     }
+    let [shapes, long] = counts;
     shapes > 0 && long >= shapes - shapes / 10 && touched == u64::MAX
 }
 

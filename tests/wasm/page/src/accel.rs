@@ -24,8 +24,9 @@ impl<'m> Small<'m> {
             accel::Kind::Naive => Self::Naive(Naive::new(scene)),
             accel::Kind::Grid(cells) => Self::Grid(Grid::build(scene, cells, arena)?),
             accel::Kind::Octree(settings) => {
-                // The page has one order only; the other is not linked.
-                let growth = Growth { order: Order::Breadth, ..settings.growth };
+                // The page has one order only, and lists of their own; the others are not linked.
+                let Growth { limits, huge, lists, .. } = settings.growth;
+                let growth = Growth { limits, huge, lists: lists.overlap, order: Order::Breadth };
                 Self::Octree(Octree::build(scene, growth, arena)?)
             }
             accel::Kind::Bvh(nodes) => Self::Bvh(Bvh::build(scene, nodes, arena)?),

@@ -83,6 +83,7 @@ impl Module {
         counters: Counters {
             primitive_tests: 0,
             mailbox_skips: 0,
+            list_skips: 0,
             steps: 0,
             leaves: 0,
             empty_leaves: 0,
