@@ -100,7 +100,8 @@ pub struct Render {
     #[arg(long, value_name = "off|N|adaptive[:T]", default_value = "off")]
     #[arg(value_parser = values::antialiasing)]
     pub aa: Antialiasing,
-    /// Leave out mirrored and refracted rays whose share of the pixel is less, as in 0.004
+    /// Leave out rays whose share of the pixel is less, as in 0.004: mirrored and refracted ones, and
+    /// shadow rays, whose light then counts as half in shadow
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     #[arg(value_parser = values::share)]
     pub cutoff: f64,
@@ -266,6 +267,9 @@ pub struct Bench {
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     pub repeat: u32,
+    /// The firmware's table, for what number formats and structures cost on boards
+    #[arg(long, value_name = "FILE")]
+    pub boards: Option<PathBuf>,
     /// What the names of all files begin with: a table, JSON, and plots of each scene
     #[arg(short, long, value_name = "PREFIX", default_value = "bench")]
     pub output: PathBuf,

@@ -368,6 +368,31 @@ impl World {
         }
     }
 
+    /// Everything so many times as large.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        let p = |p: &[f64; 3]| p.map(|x| x * by);
+        Self {
+            spheres: self.spheres.iter().map(|(c, r)| (p(c), r * by)).collect(),
+            triangles: self.triangles.iter().map(|t| t.each_ref().map(p)).collect(),
+            polygons: self.polygons.iter().map(|o| o.iter().map(p).collect()).collect(),
+            boxes: self.boxes.iter().map(|b| b.each_ref().map(p)).collect(),
+            cylinders: self
+                .cylinders
+                .iter()
+                .map(|(ends, r, capped)| (ends.each_ref().map(p), r * by, *capped))
+                .collect(),
+            cones: self
+                .cones
+                .iter()
+                .map(|(ends, radii, capped)| {
+                    (ends.each_ref().map(p), radii.map(|r| r * by), *capped)
+                })
+                .collect(),
+            planes: self.planes.iter().map(|(at, normal)| (p(at), *normal)).collect(),
+        }
+    }
+
     /// Rounds every number to one that `f32` holds, so that the shapes are the same in all types.
     pub fn round_to_f32(&mut self) {
         let round = |x: &mut f64| *x = f64::from(*x as f32);

@@ -190,6 +190,45 @@ struct Line<'q, R: Real, S: Shapes<R>> {
     per_ray: S::PerRay,
 }
 
+impl<R: Real, S: Shapes<R>> Line<'_, R, S> {
+    /// Whether the ray starts from that shape and cannot meet it.
+    fn left(&self, id: usize) -> bool {
+        S::FLAT && self.ray.left(id)
+    }
+
+    /// The nearest hit of those that follow each other, but for the shape that the ray left: if that is
+    /// what is found, those before it and those behind it are asked again.
+    fn nearest_of(&self, mut ids: Range<usize>, min: R, mut max: R) -> Option<(usize, R)> {
+        let (mut nearest, mut behind) = (None, None);
+        loop {
+            match self.shapes.nearest_of(ids.clone(), self.ray, &self.per_ray, min, max) {
+                Some((id, _)) if self.left(id) => {
+                    behind = Some(id + 1..ids.end);
+                    ids.end = id;
+                    continue;
+                }
+                Some((id, t)) if t < max || nearest.is_none() => {
+                    nearest = Some((id, t));
+                    max = t;
+                }
+                _ => {}
+            }
+            let Some(next) = behind.take() else { return nearest };
+            ids = next;
+        }
+    }
+
+    /// Some that is hit of those that follow each other, but for the one that the ray left.
+    fn any_of(&self, mut ids: Range<usize>, min: R, max: R) -> Option<usize> {
+        loop {
+            match self.shapes.any_of(ids.clone(), self.ray, &self.per_ray, min, max) {
+                Some(id) if self.left(id) => ids.start = id + 1,
+                found => return found,
+            }
+        }
+    }
+}
+
 struct Nearest {
     id: Option<usize>,
 }
@@ -207,8 +246,8 @@ impl Nearest {
 impl<R: Real> Goal<R> for Nearest {
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
         match line.shapes.hit(id, line.ray, &line.per_ray, min, limit) {
-            Some(t) => self.take(id, t, limit),
-            None => limit,
+            Some(t) if !line.left(id) => self.take(id, t, limit),
+            _ => limit,
         }
     }
 
@@ -220,7 +259,7 @@ impl<R: Real> Goal<R> for Nearest {
         limit: R,
     ) -> (R, usize) {
         let tests = ids.len();
-        match line.shapes.nearest_of(ids, line.ray, &line.per_ray, min, limit) {
+        match line.nearest_of(ids, min, limit) {
             Some((id, t)) => (self.take(id, t, limit), tests),
             None => (limit, tests),
         }
@@ -245,7 +284,8 @@ impl<R: Real> Goal<R> for Blocked {
     }
 
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
-        if line.shapes.occludes(id, line.ray, &line.per_ray, min, limit) {
+        let blocks = line.shapes.occludes(id, line.ray, &line.per_ray, min, limit);
+        if blocks && !line.left(id) {
             self.id = Some(id);
         }
         self.limit(limit)
@@ -259,7 +299,7 @@ impl<R: Real> Goal<R> for Blocked {
         limit: R,
     ) -> (R, usize) {
         let (first, tests) = (ids.start, ids.len());
-        self.id = line.shapes.any_of(ids, line.ray, &line.per_ray, min, limit);
+        self.id = line.any_of(ids, min, limit);
         (self.limit(limit), self.id.map_or(tests, |id| id - first + 1))
     }
 }

@@ -16,6 +16,8 @@ pub struct Ray<R: Real> {
     /// squares are nothing to compute with.
     reach: R,
     slack: R,
+    /// The flat shape it starts from, which it cannot meet; [`Ray::FREE`] for none.
+    left: u32,
 }
 
 /// A component is infinite or not a number, or the direction is zero.
@@ -31,6 +33,9 @@ impl core::fmt::Display for NotARay {
 impl core::error::Error for NotARay {}
 
 impl<R: Real> Ray<R> {
+    /// Starts from no flat shape; an id that no shape has.
+    pub(crate) const FREE: u32 = u32::MAX;
+
     /// A ray from a point into a direction of any length.
     ///
     /// # Errors
@@ -47,12 +52,12 @@ impl<R: Real> Ray<R> {
     pub(crate) fn from(origin: Vec3<R>, direction: Vec3<R>, reach: R) -> Option<Self> {
         let squared = R::narrow(direction.dot(direction));
         let ordinary = R::is_ordinary(squared);
-        let ray = Self { origin, direction, squared, reach, slack: R::ZERO };
+        let ray = Self { origin, direction, squared, reach, slack: R::ZERO, left: Self::FREE };
         if ordinary && reach < R::INFINITY { Some(ray) } else { ray.extraordinary() }
     }
 
     /// Another ray of the same scene: from a point as in [`Ray::from`], its direction of the squared
-    /// length given, give or take its rounding.
+    /// length given, give or take its rounding, from the flat shape `left` or none.
     #[inline]
     pub(crate) fn turned(
         &self,
@@ -60,8 +65,9 @@ impl<R: Real> Ray<R> {
         direction: Vec3<R>,
         squared: R,
         reach: R,
+        left: u32,
     ) -> Option<Self> {
-        let ray = Self { origin, direction, squared, reach, slack: self.slack };
+        let ray = Self { origin, direction, squared, reach, slack: self.slack, left };
         let ordinary = self.reach.max(reach) < R::INFINITY;
         if ordinary { Some(ray) } else { ray.extraordinary() }
     }
@@ -104,6 +110,24 @@ impl<R: Real> Ray<R> {
     /// direction has to be scaled before anything is computed with it.
     pub(crate) fn reach(&self) -> R {
         self.reach
+    }
+
+    /// Whether it starts from that shape and cannot meet it: two points of a plane are all of a line
+    /// that lies in it, so a ray that leaves a flat shape never comes back. Known, not computed: a
+    /// triangle that is thinner than rounding has no sides to tell apart.
+    #[inline]
+    pub(crate) fn left(&self, id: usize) -> bool {
+        self.left as usize == id
+    }
+
+    /// The same ray, from a flat shape or none.
+    pub(crate) fn leaving(self, left: u32) -> Self {
+        Self { left, ..self }
+    }
+
+    /// The flat shape it starts from.
+    pub(crate) fn source(&self) -> u32 {
+        self.left
     }
 
     /// The same ray with the slack of the scene it is shot into.

@@ -70,7 +70,7 @@ impl<R: Real> Framing<R> {
                 None => framing.near = false,
             }
         }
-        framing.ray = scaled(origin).unwrap_or(ray).with_slack(scene.slack());
+        framing.ray = scaled(origin).unwrap_or(ray).with_slack(scene.slack()).leaving(ray.source());
         framing
     }
 

@@ -14,7 +14,7 @@ pub use shapes::Shapes;
 pub use solids::{Solids, Triangles};
 
 use crate::accel::Hit;
-use crate::geom::{Aabb, Interval, Ray};
+use crate::geom::{Aabb, Interval, NotARay, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::shape::ShapeError;
 
@@ -232,7 +232,9 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         let reach = point.max_abs();
         let computed_from = ray.reach().max(reach).max(self.shapes.reach(id));
         let error = R::ulps_at(R::POINT_ERROR, computed_from);
-        Some(Surface { point, normal, shading, front, error, reach: reach + error })
+        let flat = S::FLAT && self.shapes.is_flat(id);
+        let left = u32::try_from(id).ok().filter(|_| flat).unwrap_or(Ray::<R>::FREE);
+        Some(Surface { point, normal, shading, front, error, reach: reach + error, left })
     }
 }
 
@@ -248,8 +250,25 @@ pub struct Surface<R: Real> {
     /// Whether the ray comes from outside (for flat shapes: from the front).
     pub front: bool,
     /// How far `point` may be from the surface: a new ray that starts so far off it, along the
-    /// normal, does not meet it again for rounding's sake.
+    /// normal, does not meet it again for rounding's sake. Of a flat shape so thin that its normal is
+    /// mostly rounding no distance can promise that; a ray made by [`Surface::leave`] never meets the
+    /// flat shape that it starts from.
     pub error: R,
     /// At least the greatest coordinate of where rays start from here.
     pub(crate) reach: R,
+    /// The flat shape that this is the surface of.
+    pub(crate) left: u32,
+}
+
+impl<R: Real> Surface<R> {
+    /// A ray that goes on from here in the same scene: it starts [`Surface::error`] off the surface, on
+    /// the side that the direction points to.
+    ///
+    /// # Errors
+    /// [`NotARay`] when a component of the direction is infinite or not a number, or all are zero.
+    pub fn leave(&self, direction: Vec3<R>) -> Result<Ray<R>, NotARay> {
+        let near = direction.dot(self.normal) >= R::Wide::default();
+        let off = if near { self.error } else { -self.error };
+        Ok(Ray::new(R::at(self.point, self.normal, off), direction)?.leaving(self.left))
+    }
 }

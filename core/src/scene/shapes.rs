@@ -19,6 +19,9 @@ pub trait Shapes<R: Real> {
     /// Whether some of them may have no bounds; where that is ruled out, no code handles it.
     const UNBOUNDED: bool = true;
 
+    /// Whether some of them may be [flat](Shapes::is_flat); where that is ruled out, no code handles it.
+    const FLAT: bool = false;
+
     /// How many there are.
     fn count(&self) -> usize;
 
@@ -103,6 +106,11 @@ pub trait Shapes<R: Real> {
     fn reach(&self, _id: usize) -> R {
         R::ZERO
     }
+
+    /// See [`Shape::FLAT`].
+    fn is_flat(&self, _id: usize) -> bool {
+        false
+    }
 }
 
 /// The shapes of one kind. An id beyond the end is never hit.
@@ -110,6 +118,7 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
     type PerRay = T::PerRay;
 
     const UNBOUNDED: bool = !T::BOUNDED;
+    const FLAT: bool = T::FLAT;
 
     fn count(&self) -> usize {
         self.len()
@@ -188,6 +197,16 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
     fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>> {
         self.get(id)?.shading_normal(ray, t)
     }
+
+    fn reach(&self, id: usize) -> R {
+        // Half: where m is a unit in the last place of the ray's and the point's coordinates and s one of
+        // the shape's, a hit is off by 1.5 m + 2 s at most (`Real::POINT_ERROR`), less than 8 m or 4 s.
+        self.get(id).map_or(R::ZERO, |shape| shape.computed_from() * R::HALF)
+    }
+
+    fn is_flat(&self, _id: usize) -> bool {
+        T::FLAT
+    }
 }
 
 /// One set after the other: the ids of the second follow those of the first.
@@ -195,6 +214,7 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
     type PerRay = (A::PerRay, B::PerRay);
 
     const UNBOUNDED: bool = A::UNBOUNDED || B::UNBOUNDED;
+    const FLAT: bool = A::FLAT || B::FLAT;
 
     fn count(&self) -> usize {
         self.0.count() + self.1.count()
@@ -303,6 +323,13 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         match id.checked_sub(self.0.count()) {
             None => self.0.reach(id),
             Some(id) => self.1.reach(id),
+        }
+    }
+
+    fn is_flat(&self, id: usize) -> bool {
+        match id.checked_sub(self.0.count()) {
+            None => self.0.is_flat(id),
+            Some(id) => self.1.is_flat(id),
         }
     }
 }

@@ -20,6 +20,7 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
     type PerRay = <Triangle<R> as Shape<R>>::PerRay;
 
     const UNBOUNDED: bool = false;
+    const FLAT: bool = true;
 
     fn count(&self) -> usize {
         self.triangles.count()
@@ -67,6 +68,10 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
         let [u, v, w] = self.triangles.get(id)?.barycentric(ray);
         Some(*a * u + *b * v + *c * w)
     }
+
+    fn is_flat(&self, _id: usize) -> bool {
+        true
+    }
 }
 
 /// Every kind of shape, one table a kind; tables not needed stay empty.
@@ -111,6 +116,8 @@ impl<'a, R: Real> Solids<'a, R> {
 
 impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
     type PerRay = <Chain<'a, R> as Shapes<R>>::PerRay;
+
+    const FLAT: bool = true;
 
     fn count(&self) -> usize {
         self.chain().count()
@@ -176,5 +183,13 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
 
     fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>> {
         self.chain().shading_normal(id, ray, t)
+    }
+
+    fn reach(&self, id: usize) -> R {
+        self.chain().reach(id)
+    }
+
+    fn is_flat(&self, id: usize) -> bool {
+        self.chain().is_flat(id)
     }
 }

@@ -176,6 +176,10 @@ impl<R: Real> Shape<R> for Cone<R> {
             (Part::Wall, across) => across.unit().unwrap_or_default() - self.axis * self.growth(),
         }
     }
+
+    fn computed_from(&self) -> R {
+        self.base.max_abs() + self.height + self.base_radius.max(self.apex_radius)
+    }
 }
 
 #[cfg(test)]

@@ -127,6 +127,10 @@ impl<R: Real> Shape<R> for Cylinder<R> {
             (Part::Wall, across) => across,
         }
     }
+
+    fn computed_from(&self) -> R {
+        self.base.max_abs() + self.height + self.radius
+    }
 }
 
 #[cfg(test)]

@@ -90,6 +90,11 @@ pub trait Shape<R: Real> {
     /// Whether the shape has an extent that a box can hold. The same for all shapes of a kind.
     const BOUNDED: bool = true;
 
+    /// Whether it is a piece of a plane, so that a ray that starts from it never meets it again, and
+    /// rays remember that: it may be so thin that no distance tells its sides apart. The same for all
+    /// shapes of a kind.
+    const FLAT: bool = false;
+
     /// Prepares a ray.
     fn per_ray(ray: &Ray<R>) -> Self::PerRay;
 
@@ -128,6 +133,12 @@ pub trait Shape<R: Real> {
     /// The normal that shading uses, of any length, where it is not the geometric one.
     fn shading_normal(&self, _ray: &Ray<R>, _t: R) -> Option<Vec3<R>> {
         None
+    }
+
+    /// The greatest coordinate that its hits are computed from, where that may be greater than those
+    /// of the hit and of the ray's origin: a hit on a huge sphere is as exact as the sphere.
+    fn computed_from(&self) -> R {
+        R::ZERO
     }
 }
 

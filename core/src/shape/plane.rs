@@ -69,6 +69,10 @@ impl<R: Real> Shape<R> for Plane<R> {
     fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {
         self.normal
     }
+
+    fn computed_from(&self) -> R {
+        self.point.max_abs()
+    }
 }
 
 #[cfg(test)]

@@ -103,6 +103,8 @@ fn newell<R: Real>(vertices: &[Vec3<R>], exponent: i32) -> Vec3<R> {
 impl<R: Real> Shape<R> for Polygon<'_, R> {
     type PerRay = Shear<R>;
 
+    const FLAT: bool = true;
+
     fn per_ray(ray: &Ray<R>) -> Shear<R> {
         Shear::of(ray)
     }

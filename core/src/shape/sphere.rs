@@ -148,6 +148,10 @@ impl<R: Real> Shape<R> for Sphere<R> {
     fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
         ray.at(t) - self.center
     }
+
+    fn computed_from(&self) -> R {
+        self.center.max_abs() + self.radius
+    }
 }
 
 #[cfg(test)]

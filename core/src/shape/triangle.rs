@@ -197,6 +197,8 @@ fn weights<R: Real>([a, b, c]: [(R, R, R); 3]) -> [R::Wide; 3] {
 impl<R: Real> Shape<R> for Triangle<R> {
     type PerRay = Shear<R>;
 
+    const FLAT: bool = true;
+
     fn per_ray(ray: &Ray<R>) -> Shear<R> {
         Shear::of(ray)
     }

@@ -11,7 +11,7 @@ use crate::probe::{Probe, RayKind};
 use crate::scene::{Light, Material, Scene, Shapes, Surface};
 use heapless::{Vec, VecView};
 
-/// The greatest depth of recursion; a pending ray takes 44 bytes in `f32`.
+/// The greatest depth of recursion; a pending ray takes 48 bytes in `f32`.
 pub const MOST_DEPTH: u8 = 16;
 
 /// Up to this depth the stack of pending rays is a small one.
@@ -38,7 +38,8 @@ pub struct Settings<R> {
     /// Adaptive recursion: a ray whose share of the pixel, the product of the coefficients on its way,
     /// is less is not shot. 0 leaves none out; 1/512 leaves out what a display of 8 bits can hardly
     /// show. R. A. Hall, D. P. Greenberg, "A testbed for realistic image synthesis", IEEE CG&A 3(8)
-    /// (1983).
+    /// (1983). The same holds for shadow rays: light that may add less than that counts as half in
+    /// shadow, whichever it is.
     pub cutoff: R,
     /// Whether a shadow ray tries the shape first that blocked the last ray to that light, if it was
     /// blocked. Pictures
@@ -163,7 +164,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
             Vec3::<R>::default()
         };
         let arrival = Arrival { ray: &now.ray, surface: &surface, material, origin, mirrored };
-        let color = self.local(&arrival, probe);
+        let color = self.local(&arrival, now.weight, probe);
         if now.depth >= self.settings.max_depth {
             return (color, false);
         }
@@ -184,24 +185,37 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     }
 
     /// Light that comes straight from the lamps.
-    fn local<P: Probe>(&mut self, arrival: &Arrival<'_, R>, probe: &mut P) -> Vec3<R> {
+    fn local<P: Probe>(&mut self, arrival: &Arrival<'_, R>, weight: R, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         for (i, light) in self.scene.lights().iter().enumerate() {
             let Some((ray, distance)) = arrival.towards(light) else { continue };
-            let between = Interval::new(R::ZERO, distance);
-            let guess = self.blockers.get(i).copied().flatten();
-            let (scene, mailbox) = (self.scene, &mut self.mailbox);
-            let blocker = self.accel.blocker(scene, &ray, between, guess, mailbox, probe);
-            let blocked = blocker.is_some();
-            if let (true, Some(last)) = (self.settings.shadow_cache, self.blockers.get_mut(i)) {
-                *last = blocker;
-            }
-            probe.ray(RayKind::Shadow, blocked);
-            if !blocked {
-                color = color + arrival.reflected(ray.direction()).scale(light.color);
-            }
+            let cutoff = self.settings.cutoff;
+            let faint = cutoff > R::ZERO && arrival.at_most(&ray, light) * weight < cutoff;
+            let light = if faint {
+                light.color * R::HALF
+            } else if self.is_blocked(i, &ray, distance, probe) {
+                continue;
+            } else {
+                light.color
+            };
+            color = color + arrival.reflected(ray.direction()).scale(light);
         }
         color
+    }
+
+    /// Shoots a shadow ray to a light.
+    #[inline]
+    fn is_blocked<P: Probe>(&mut self, i: usize, ray: &Ray<R>, light: R, probe: &mut P) -> bool {
+        let guess = self.blockers.get(i).copied().flatten();
+        let between = Interval::new(R::ZERO, light);
+        let (scene, mailbox) = (self.scene, &mut self.mailbox);
+        let blocker = self.accel.blocker(scene, ray, between, guess, mailbox, probe);
+        let blocked = blocker.is_some();
+        if let (true, Some(last)) = (self.settings.shadow_cache, self.blockers.get_mut(i)) {
+            *last = blocker;
+        }
+        probe.ray(RayKind::Shadow, blocked);
+        blocked
     }
 }
 
@@ -244,8 +258,15 @@ impl<R: Real> Arrival<'_, R> {
             return None;
         }
         let unit = towards.unit()?;
-        let ray = self.ray.turned(self.origin, unit, R::ONE, self.surface.reach)?;
+        let ray =
+            self.ray.turned(self.origin, unit, R::ONE, self.surface.reach, self.surface.left)?;
         Some((ray, R::distance_to(light.position, R::narrow(towards.dot(unit)))))
+    }
+
+    /// What a light adds at most, in any channel.
+    fn at_most(&self, ray: &Ray<R>, light: &Light<R>) -> R {
+        let cosine = R::narrow(self.surface.shading.dot(ray.direction()));
+        (self.material.diffuse * cosine + self.material.specular) * light.color.max_abs()
     }
 
     /// What the surface sends back of white light from a direction of length 1.
@@ -277,8 +298,8 @@ impl<R: Real> Arrival<'_, R> {
             Secondary::All => specular > R::ZERO || transmission > R::ZERO,
         };
         let mirrored = if mirrors {
-            let (squared, reach) = (self.ray.squared(), self.surface.reach);
-            self.ray.turned(self.origin, self.mirrored, squared, reach)
+            let Surface { reach, left, .. } = *self.surface;
+            self.ray.turned(self.origin, self.mirrored, self.ray.squared(), reach, left)
         } else {
             None
         };
@@ -288,11 +309,11 @@ impl<R: Real> Arrival<'_, R> {
     /// The ray behind the surface, after Snell; `None` for total reflection.
     #[inline(never)]
     fn through(&self) -> Option<Ray<R>> {
-        let Surface { point, normal, shading, front, error, reach } = *self.surface;
+        let Surface { point, normal, shading, front, error, reach, left } = *self.surface;
         let origin = point - normal * error;
         let index = self.material.index;
         if !(index > R::ZERO) || index == R::ONE {
-            return self.ray.turned(origin, self.ray.direction(), self.ray.squared(), reach);
+            return self.ray.turned(origin, self.ray.direction(), self.ray.squared(), reach, left);
         }
         let direction = self.ray.direction().unit()?;
         let ratio = if front { R::ONE / index } else { index };
@@ -304,6 +325,6 @@ impl<R: Real> Arrival<'_, R> {
         let bent = direction * ratio + shading * (ratio * cosine - under_root.sqrt());
         // An interpolated normal may send the ray back to where it comes from: then straight on.
         let straight = bent.dot(normal) >= R::Wide::default();
-        self.ray.turned(origin, if straight { direction } else { bent }, R::ONE, reach)
+        self.ray.turned(origin, if straight { direction } else { bent }, R::ONE, reach, left)
     }
 }

@@ -34,7 +34,7 @@ impl<F: Number> Cuboid<F> {
             let span = |wall: F| {
                 let t = (wall - o) / d;
                 let aside = line.aside / d.to_f64().abs();
-                let way = (t.to_f64().abs() * line.length).min(line.most);
+                let way = line.size((t.to_f64().abs() * line.length).min(line.most));
                 let by = F::of(4.0 * line.u * way / line.length + aside) + line.along(t, way);
                 Span { lo: t - by, t, hi: t + by }
             };

@@ -62,7 +62,7 @@ impl<F: Number> Flat<F> {
         let cosine = slope.to_f64().abs() / line.length;
         // A plane is met by rays that are not moved, too.
         let way = length(sub(self.point, line.o)).to_f64();
-        let way = if self.bounds.is_some() { way.min(line.most) } else { way };
+        let way = line.size(if self.bounds.is_some() { way.min(line.most) } else { way });
         let reach = way + (t.to_f64().abs() * line.length).min(way / cosine);
         let moved = 12.0 * line.u * reach + self.turned * line.u * self.size + line.aside;
         let by = moved / cosine / line.length;
@@ -110,7 +110,8 @@ impl<F: Number> Flat<F> {
             let none = Crossing { t: None, lo: -most, hi: most, sure: false };
             return self.kept(line, none);
         }
-        let by = 2.0 * doubt / det * range.to_f64() + 8.0 * line.u * depth.min(2.0 * line.most);
+        let by = 2.0 * doubt / det * range.to_f64()
+            + 8.0 * line.u * line.size(depth.min(2.0 * line.most) * line.length) / line.length;
         let by = F::of(by) + line.along(t, self.farthest(line));
         let exact = inside.then_some(t);
         self.kept(line, Crossing { t: exact, lo: t - by, hi: t + by, sure: clear })

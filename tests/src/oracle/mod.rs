@@ -20,7 +20,8 @@
 //! | box | each face by 4u\|td\| | a difference, a reciprocal, a product |
 //! | cylinder, cone | 16u(\|f\| + h + r) + 2u\|m\| across the wall, and the ends along the axis; a cone's squares by the same times its greater radius | the middle m is rounded; taken from the ray's point next to the middle: the way there as for the sphere, then the split along an axis that is a unit within 16u |
 //!
-//! and along the ray by the rounding of t itself. A ray whose origin is beyond four times the scene's
+//! and along the ray by the rounding of t itself. In fixed point u is half a step, 2^-29, and what is
+//! less than 1 counts as 1: rounding does not shrink with the numbers. A ray whose origin is beyond four times the scene's
 //! size is moved first, which shifts it aside by u(D + 5S) an axis (`tests/far_and_long.rs`).
 //! Where the numbers with twice the digits are themselves in doubt, at edges, vertices and tangents,
 //! [`exact`] decides by whole numbers of any length.
@@ -56,6 +57,10 @@ pub struct Line<F> {
     slack: f64,
     /// What [`Tested::rounding`] makes of 1.
     u: f64,
+    /// [`Tested::LEAST`].
+    least: f64,
+    /// Whether sums of products are exact.
+    exact: bool,
 }
 
 impl<F: Number> Line<F> {
@@ -65,8 +70,11 @@ impl<F: Number> Line<F> {
         let dd = dot(d, d);
         let reach = ray.origin().max_abs().to_f64();
         // Without bounded shapes there is nothing to be moved to.
-        let far = scale > 0.0 && reach > 4.0 * scale;
+        let far = scale > 0.0 && reach > R::far(R::from_f64(scale)).to_f64();
         let aside = if far { 2.0 * R::rounding(reach + 5.0 * scale) } else { 0.0 };
+        // A direction too long for fixed point is shortened, which rounds it: over the whole way, 5.
+        let shortened = R::EXACT && dd.to_f64() >= 3.0;
+        let aside = if shortened { aside + 5.0 * R::rounding(1.0) } else { aside };
         Self {
             o,
             d,
@@ -74,20 +82,28 @@ impl<F: Number> Line<F> {
             length: dd.root().to_f64(),
             aside,
             most: if far { 16.0 * scale } else { f64::INFINITY },
-            slack: 64.0 * R::rounding(scale),
+            slack: R::ulps_at(R::SLACK, R::from_f64(scale)).to_f64(),
             u: R::rounding(1.0),
+            least: R::LEAST,
+            exact: R::EXACT,
         }
     }
 
     /// The distance that rounding of the way to a shape's point is in proportion to.
     fn way(&self, point: Triple<F>) -> f64 {
-        length(number::sub(point, self.o)).to_f64().min(self.most)
+        self.size(length(number::sub(point, self.o)).to_f64().min(self.most))
+    }
+
+    /// What a length counts where rounding is in proportion to it.
+    fn size(&self, length: f64) -> f64 {
+        length.max(self.least)
     }
 
     /// What rounding leaves of a parameter around `t`, as seen from where the ray starts.
     fn along(&self, t: F, way: f64) -> F {
         let t = t.to_f64().abs();
-        let own = t.min(2.0 * way / self.length);
+        let own =
+            self.size(t.min(2.0 * way / self.length) * self.length) / self.length + self.least;
         let moved = if self.most.is_finite() { 4.0 * self.u * t } else { 0.0 };
         F::of(8.0 * self.u * own + moved)
     }

@@ -1,6 +1,6 @@
 //! Numbers that oracles compute in: twice as many digits as what they judge.
 
-use kibiray::num::Real;
+use kibiray::num::{Fixed, Real};
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use twofloat::TwoFloat;
@@ -55,6 +55,11 @@ pub trait Tested: Real {
     type Oracle: Number;
     /// Its name on the command line.
     const NAME: &'static str;
+    /// What a length of 1 of a test's scene is in this type: fixed point has room for coordinates up to
+    /// 1/2, and for origins of rays up to 2.
+    const UNIT: f64 = 1.0;
+    /// Numbers that are less are rounded by as much as this one.
+    const LEAST: f64 = 0.0;
     /// How far a number of this size may be from the one that it was rounded from: what the
     /// literature calls u times the number.
     fn rounding(size: f64) -> f64;
@@ -73,6 +78,17 @@ impl Tested for f64 {
     const NAME: &'static str = "f64";
     fn rounding(size: f64) -> f64 {
         size * 2.0_f64.powi(-53)
+    }
+}
+
+/// Half a step, whatever the number's size.
+impl Tested for Fixed {
+    type Oracle = f64;
+    const NAME: &'static str = "fixed";
+    const UNIT: f64 = 1.0 / 16.0;
+    const LEAST: f64 = 1.0;
+    fn rounding(size: f64) -> f64 {
+        size.max(Self::LEAST) * 2.0_f64.powi(-29)
     }
 }
 

@@ -282,7 +282,7 @@ fn near<F: Number>(
     let ff = (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]).sqrt();
     let off = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).sqrt();
     let within = radius * 1.001
-        + 200.0 * line.u * (ff.min(line.most) + radius)
+        + 200.0 * line.u * line.size(ff.min(line.most) + radius)
         + 4.0 * line.slack
         + 4.0 * line.aside
         + 1e-12 * ff;

@@ -29,7 +29,7 @@ impl<F: Number> Sphere<F> {
         // The smaller root comes of the product of both: its error grows where they are small.
         let far = (middle.to_f64().abs() + outer.to_f64()) * line.length;
         let near = (6.0 * u * way * way + 2.0 * u * r * r + 2.0 * r * moved) / far;
-        let near = near.min(far);
+        let near = if line.exact { 0.0 } else { near.min(far) };
         let along = F::of((16.0 * u * (way + r) + near) / line.length) + line.along(middle, way);
         let mut push = |sign: f64| {
             let at = |half: F| middle + half * F::of(sign);

@@ -1,7 +1,7 @@
 //! Cylinders and cones: along the axis and the wall, through the tip, tangents and double roots.
 
 use super::Report;
-use super::tools::{Court, Random, V, add, cross, length, ray, sub, times, v};
+use super::tools::{Court, Random, V, add, cross, len, length, ray, sub, times, v};
 use kibiray::scene::{Scene, Solids};
 use kibiray::shape::{Cone, Cylinder, Shape};
 use kibiray_tests::oracle::{Tally, Tested};
@@ -16,7 +16,7 @@ pub(super) fn run<R: Tested>(percent: usize) -> Report {
         ("tangents", Way::Tangent),
         ("from on the wall", Way::On),
     ] {
-        report.push((name, shoot::<R>(percent * 1000, way)));
+        report.push((name, Some(shoot::<R>(percent * 1000, way))));
     }
     report
 }
@@ -94,7 +94,7 @@ fn shoot<R: Tested>(rays: usize, way: Way) -> Tally {
         };
         let radii = if i % 8 < 4 { [r, other] } else { [other, r] };
         let (b, a) = (v::<R>(base), v::<R>(apex));
-        let (rb, ra) = (R::from_f64(radii[0]), R::from_f64(radii[1]));
+        let (rb, ra) = (len::<R>(radii[0]), len::<R>(radii[1]));
         let capped = random.rng().bool();
         let (cylinders, cones) = if i % 4 < 2 {
             let c = Cylinder::new(b, a, rb);

@@ -85,17 +85,63 @@ impl Random {
     }
 }
 
-pub(super) fn v<R: Real>(p: V) -> Vec3<R> {
-    Vec3::<R>::from_f64(p)
+/// A length of the test's scene in a number type: see [`Tested::UNIT`].
+pub(super) fn len<R: Tested>(x: f64) -> R {
+    R::from_f64(x * R::UNIT)
 }
 
-pub(super) fn wide<R: Real>(p: Vec3<R>) -> V {
+/// A point or a direction of the test's scene.
+pub(super) fn v<R: Tested>(p: V) -> Vec3<R> {
+    v_in::<R>(R::UNIT, p)
+}
+
+/// The same where a length of 1 is `unit`.
+pub(super) fn v_in<R: Real>(unit: f64, p: V) -> Vec3<R> {
+    Vec3::<R>::from_f64(p.map(|x| x * unit))
+}
+
+/// What a length of 1 is in a scene with coordinates up to `size`.
+pub(super) fn unit_for<R: Real>(size: f64) -> f64 {
+    if R::EXACT { 2.0_f64.powf(-size.log2().ceil() - 1.0) } else { 1.0 }
+}
+
+/// Only where a number type is not a fixed-point one.
+pub(super) fn floating<R: Real>(run: impl FnOnce() -> Tally) -> Option<Tally> {
+    (!R::EXACT).then(run)
+}
+
+/// As it came to be, in lengths of the test's scene again.
+pub(super) fn wide<R: Tested>(p: Vec3<R>) -> V {
+    plain::<R>(p).map(|x| x / R::UNIT)
+}
+
+/// As the number type has it.
+pub(super) fn plain<R: Real>(p: Vec3<R>) -> V {
     p.to_array().map(R::to_f64)
 }
 
+/// How far a length of the test's scene may be from what it was rounded from.
+pub(super) fn rounding<R: Tested>(size: f64) -> f64 {
+    R::rounding(size * R::UNIT) / R::UNIT
+}
+
 /// A ray, where the numbers make one.
-pub(super) fn ray<R: Real>(o: V, d: V) -> Option<Ray<R>> {
-    Ray::new(v::<R>(o), v::<R>(d)).ok()
+pub(super) fn ray<R: Tested>(o: V, d: V) -> Option<Ray<R>> {
+    ray_in::<R>(R::UNIT, o, d)
+}
+
+/// The same where a length of 1 is `unit`. In fixed point the direction is given a length that is
+/// ordinary, and there is no ray that starts beyond 2.
+pub(super) fn ray_in<R: Tested>(unit: f64, o: V, d: V) -> Option<Ray<R>> {
+    let [o, mut d] = [o, d].map(|p| p.map(|x| x * unit));
+    if R::EXACT {
+        if !o.iter().all(|x: &f64| x.abs() <= 2.0) || !(length(d) > 0.0) {
+            return None;
+        }
+        // Into 3/4 to 3, squared.
+        d = times(d, 2.0_f64.powf(-(length(d).log2() + 0.2075).floor()));
+    }
+    Ray::new(Vec3::<R>::from_f64(o), Vec3::<R>::from_f64(d)).ok()
 }
 
 pub(super) fn nearest<R: Real, S: Shapes<R>>(
@@ -104,6 +150,10 @@ pub(super) fn nearest<R: Real, S: Shapes<R>>(
     interval: Interval<R>,
 ) -> Option<Hit<R>> {
     Naive::new(scene).nearest(scene, ray, interval, &mut mailbox::Off, &mut ())
+}
+
+pub(super) fn blocked<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, ray: &Ray<R>) -> bool {
+    Naive::new(scene).occluded(scene, ray, Interval::RAY, &mut mailbox::Off, &mut ())
 }
 
 /// A scene and who judges its rays.

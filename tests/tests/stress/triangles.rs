@@ -2,7 +2,9 @@
 //! leave a hit and must not meet it again.
 
 use super::Report;
-use super::tools::{Court, Random, V, add, cross, dot, length, ray, sub, times, v, wide};
+use super::tools::{
+    Court, Random, V, add, cross, dot, floating, length, plain, ray, sub, times, v, v_in, wide,
+};
 use kibiray::geom::Interval;
 use kibiray::scene::{Scene, Solids, Triangles};
 use kibiray::shape::{Shape, Triangle};
@@ -10,17 +12,43 @@ use kibiray_tests::oracle::{Tally, Tested, exact};
 
 pub(super) fn run<R: Tested>(percent: usize) -> Report {
     let far = [148_376.0, 1234.0, -223_423.0];
+    let all = percent * 1000;
+    let half = percent * 500;
     vec![
-        ("about the origin", judged::<R>(percent * 1000, 21, |random| near(random, [0.0; 3]))),
-        ("moved by 1000", judged::<R>(percent * 500, 22, |random| near(random, [1e3, -1e3, 1e3]))),
-        ("moved by 148376, 1234, -223423", judged::<R>(percent * 500, 23, |r| near(r, far))),
-        ("slivers", judged::<R>(percent * 1000, 24, sliver)),
-        ("coordinates of 10^+-8", judged::<R>(percent * 1000, 25, spread)),
-        ("without rounding", whole::<R>(percent * 300)),
-        ("left and not met again", leaving::<R>(percent * 1000, true, |r| near(r, [0.0; 3]))),
-        ("left, far from the origin", leaving::<R>(percent * 500, true, |r| near(r, far))),
-        ("left, slivers", leaving::<R>(percent * 500, false, sliver)),
-        ("left, coordinates of 10^+-8", leaving::<R>(percent * 1000, false, spread)),
+        ("about the origin", Some(judged::<R>(all, 21, |r| near(r, [0.0; 3])))),
+        ("moved by 1000", floating::<R>(|| judged::<R>(half, 22, |r| near(r, [1e3, -1e3, 1e3])))),
+        (
+            "moved by 148376, 1234, -223423",
+            floating::<R>(|| judged::<R>(half, 23, |r| near(r, far))),
+        ),
+        ("slivers", Some(judged::<R>(all, 24, sliver))),
+        ("coordinates of 10^+-8", floating::<R>(|| judged::<R>(all, 25, |r| spread(r, 8.0)))),
+        ("coordinates of 1e-7 to the greatest", Some(judged::<R>(all, 28, |r| spread(r, 0.9)))),
+        ("without rounding", Some(whole::<R>(percent * 300))),
+        ("left and not met again", Some(leaving::<R>(all, Way::Known, |r| near(r, [0.0; 3])))),
+        (
+            "left, far from the origin",
+            floating::<R>(|| leaving::<R>(half, Way::Known, |r| near(r, far))),
+        ),
+        ("left, slivers", Some(leaving::<R>(half, Way::Known, sliver))),
+        (
+            "left, coordinates of 10^+-8",
+            floating::<R>(|| leaving::<R>(all, Way::Known, |r| spread(r, 8.0))),
+        ),
+        (
+            "left, coordinates of 1e-7 and up",
+            Some(leaving::<R>(half, Way::Known, |r| spread(r, 0.9))),
+        ),
+        ("left by a distance only", Some(leaving::<R>(all, Way::Strict, |r| near(r, [0.0; 3])))),
+        (
+            "the same, far from the origin",
+            floating::<R>(|| leaving::<R>(half, Way::Strict, |r| near(r, far))),
+        ),
+        ("the same, slivers", Some(leaving::<R>(half, Way::Judged, sliver))),
+        (
+            "the same, coordinates of 10^+-8",
+            floating::<R>(|| leaving::<R>(half, Way::Judged, |r| spread(r, 8.0))),
+        ),
     ]
 }
 
@@ -37,9 +65,10 @@ fn sliver(random: &mut Random) -> [V; 3] {
     [a, b, add(on, times(random.direction(), thin))]
 }
 
-/// mmp/pbrt-v4, shapes_test.cpp, `GetRandomTriangle`.
-fn spread(random: &mut Random) -> [V; 3] {
-    [0; 3].map(|_: i32| [0; 3].map(|_: i32| random.sign() * random.decade(-8.0, 8.0)))
+/// Coordinates up to 10 to a power; mmp/pbrt-v4, shapes_test.cpp, `GetRandomTriangle`.
+fn spread(random: &mut Random, most: f64) -> [V; 3] {
+    let least = if most < 1.0 { -7.0 } else { -most };
+    [0; 3].map(|_: i32| [0; 3].map(|_: i32| random.sign() * random.decade(least, most)))
 }
 
 fn point(random: &mut Random, [a, b, c]: [V; 3]) -> V {
@@ -91,7 +120,8 @@ fn judged<R: Tested>(rays: usize, seed: u64, make: impl Fn(&mut Random) -> [V; 3
     tally
 }
 
-/// Small whole numbers along powers of two, where nothing is rounded: exactly the closed triangle.
+/// Small whole numbers along powers of two, where nothing is rounded: exactly the closed triangle. Of
+/// fixed point, whose shears are cut off below the last digit, the bound of that is asked.
 fn whole<R: Tested>(rays: usize) -> Tally {
     let mut random = Random::new(26);
     let mut tally = Tally::default();
@@ -114,6 +144,10 @@ fn whole<R: Tested>(rays: usize) -> Tally {
         };
         let Some(ray) = ray::<R>(sub(at, times(way, 4.0)), way) else { continue };
         let all = Interval::new(-R::from_i32(64), R::from_i32(64));
+        if R::EXACT {
+            Court::new(&scene).shoot_within(&ray, all, &mut tally);
+            continue;
+        }
         let hit = super::tools::nearest(&scene, &ray, all);
         // In its plane: decided as no hit.
         let met = exact::meets_triangle(wide::<R>(ray.origin()), way, corners).unwrap_or(false);
@@ -123,11 +157,20 @@ fn whole<R: Tested>(rays: usize) -> Tally {
     tally
 }
 
-/// mmp/pbrt-v4, shapes_test.cpp, `TEST(Triangle, Reintersect)`: from a hit, moved off it by the error
-/// that the core claims for it, into the half-space that it faces. `strict`: not met again, whatever
-/// the bound; otherwise only where the bound tells on which side of the triangle the ray starts, and
-/// through what: one thinner than the bound has no sides.
-fn leaving<R: Tested>(rays: usize, strict: bool, make: impl Fn(&mut Random) -> [V; 3]) -> Tally {
+/// How a ray leaves.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// As [`kibiray::scene::Surface::leave`] has it, to either side: never met again.
+    Known,
+    /// From as far off as the core says the point may be wrong: not met again.
+    Strict,
+    /// The same, and judged: met again only where the bound does not tell on which side of the triangle
+    /// the ray starts, or through what. One thinner than the bound has no sides.
+    Judged,
+}
+
+/// From a hit. mmp/pbrt-v4, shapes_test.cpp, `TEST(Triangle, Reintersect)`.
+fn leaving<R: Tested>(rays: usize, leave: Way, make: impl Fn(&mut Random) -> [V; 3]) -> Tally {
     let mut random = Random::new(27);
     let mut tally = Tally::default();
     let mut shots = 0;
@@ -154,12 +197,22 @@ fn leaving<R: Tested>(rays: usize, strict: bool, make: impl Fn(&mut Random) -> [
         let origin = surface.point + surface.normal * surface.error;
         for _ in 0..20 {
             let way = random.direction();
-            let up = dot(way, n).signum() * dot(wide::<R>(surface.normal), n).signum();
-            let Some(ray) = ray::<R>(wide::<R>(origin), times(way, up)) else { continue };
             shots += 1;
-            let (again, _) = court.shoot(&ray, &mut tally);
-            if strict && again.is_some() {
-                tally.fail(|| format!("{corners:?} {ray0:?} {hit:?} {ray:?}: again {again:?}"));
+            if leave == Way::Known {
+                let next = surface.leave(v_in::<R>(1.0, way)).unwrap();
+                let again = super::tools::nearest(&scene, &next, Interval::RAY);
+                let any = super::tools::blocked(&scene, &next);
+                tally.hits += u64::from(again.is_some() || any);
+                tally.expect(again.is_none() && !any, || {
+                    format!("{corners:?} {ray0:?} {hit:?} {next:?}: again {again:?}")
+                });
+                continue;
+            }
+            let up = dot(way, n).signum() * dot(plain::<R>(surface.normal), n).signum();
+            let Some(next) = ray::<R>(wide::<R>(origin), times(way, up)) else { continue };
+            let (again, _) = court.shoot(&next, &mut tally);
+            if leave == Way::Strict && again.is_some() {
+                tally.fail(|| format!("{corners:?} {ray0:?} {hit:?} {next:?}: again {again:?}"));
             }
         }
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::num::{Cells as _, Progress as _, Reciprocal as _};
+use crate::num::{Cells as _, Progress as _};
 use crate::shape::testing::Random;
 
 extern crate std;

@@ -1,23 +1,26 @@
 //! `bench`: time against error, over number formats, structures, memory and ways to sample.
 
+mod boards;
 mod picture;
 mod query;
 mod table;
 
 use std::path::Path;
 
+use anyhow::Context as _;
 use clap::{Parser, ValueEnum};
 use kibiray::num::Fixed;
 use serde::Serialize;
 
 use super::stage::{self, Loaded};
-use crate::options::{Bench, Common, Number};
+use crate::options::{Antialiasing, Bench, Common, Number};
 use crate::plot;
 
 /// All of it.
 #[derive(Debug, Serialize)]
 struct Report {
     scenes: Vec<SceneReport>,
+    boards: Vec<boards::Row>,
 }
 
 /// What is measured of a scene. Times are processor time, in parts of that of another row.
@@ -45,9 +48,15 @@ pub(super) fn run(options: &Bench) -> anyhow::Result<()> {
     }
     let common = Defaults::try_parse_from(["bench"])?.common;
     let combinations = options.num.len()
-        * (options.accel.len() * options.ram.len() + options.aa.len() * options.cutoff.len());
+        * (options.accel.len() * options.ram.len() + options.aa.len() * options.cutoff.len() + 1);
     let bar = super::progress((options.scenes.len() * (combinations + 1)) as u64, "measurements");
-    let mut report = Report { scenes: Vec::new() };
+    let boards = match &options.boards {
+        Some(file) => boards::rows(
+            &std::fs::read_to_string(file).with_context(|| file.display().to_string())?,
+        ),
+        None => Vec::new(),
+    };
+    let mut report = Report { scenes: Vec::new(), boards };
     for name in &options.scenes {
         let loaded = stage::open(name, &common)?;
         let mut queries = Vec::new();
@@ -63,18 +72,23 @@ pub(super) fn run(options: &Bench) -> anyhow::Result<()> {
         query::relate(&mut queries);
         let reference = picture::reference(&options, &loaded, &common)?;
         bar.inc(1);
-        let mut pictures = Vec::new();
+        let (mut pictures, mut by_depth) = (Vec::new(), Vec::new());
         for num in &options.num {
+            let shoot = |aa, cutoff, adaptive_recursion| {
+                let way = picture::Way { num: *num, aa, cutoff, adaptive_recursion };
+                picture::row(&options, &loaded, &common, way, &reference)
+            };
             for aa in &options.aa {
                 for cutoff in &options.cutoff {
-                    let way = picture::Way { num: *num, aa: *aa, cutoff: *cutoff };
-                    pictures.push(picture::row(&options, &loaded, &common, way, &reference)?);
+                    pictures.push(shoot(*aa, *cutoff, true)?);
                     bar.inc(1);
                 }
             }
+            by_depth.push(shoot(Antialiasing::Off, 0.0, false)?);
+            bar.inc(1);
         }
         picture::relate(&mut pictures);
-        let findings = picture::findings(&pictures);
+        let findings = picture::findings(&pictures, &by_depth);
         let primitives = loaded.description.items.len();
         report.scenes.push(SceneReport {
             name: name.clone(),

@@ -5,7 +5,7 @@ use image_compare::prelude::RgbImage;
 use indicatif::ProgressBar;
 use kibiray::num::{Fixed, Real};
 use kibiray::scene::Camera;
-use kibiray::trace::Settings;
+use kibiray::trace::{Secondary, Settings};
 use serde::Serialize;
 
 use super::{SceneReport, name_of};
@@ -28,6 +28,9 @@ pub(super) struct Way {
     pub(super) num: Number,
     pub(super) aa: Antialiasing,
     pub(super) cutoff: f64,
+    /// Whether rays are left out by their share at all, those that add nothing too; otherwise
+    /// recursion ends by depth alone.
+    pub(super) adaptive_recursion: bool,
 }
 
 /// What a way to make the picture gives.
@@ -54,7 +57,8 @@ pub(super) fn reference(
     loaded: &Loaded,
     common: &Common,
 ) -> anyhow::Result<Image> {
-    let way = Way { num: Number::F64, aa: Antialiasing::Uniform(REFERENCE), cutoff: 0.0 };
+    let aa = Antialiasing::Uniform(REFERENCE);
+    let way = Way { num: Number::F64, aa, cutoff: 0.0, adaptive_recursion: true };
     let options = Bench { repeat: 0, ..options.clone() };
     Ok(shoot(&options, loaded, common, way)?.image)
 }
@@ -79,7 +83,10 @@ fn render<R: Real>(
     stage::set::<R>(loaded, common, AMPLE, picture, |stage| {
         let Stage { tables, scene, built, .. } = stage;
         let camera = Camera::new(tables.view(), R::fraction(width.into(), height.into()))?;
-        let settings = Settings { cutoff: R::from_f64(way.cutoff), ..Settings::default() };
+        let secondary =
+            if way.adaptive_recursion { Secondary::Contributing } else { Secondary::All };
+        let settings =
+            Settings { cutoff: R::from_f64(way.cutoff), secondary, ..Settings::default() };
         let bar = ProgressBar::hidden();
         let repeat = options.repeat + 1;
         let size = (width, height);
@@ -151,12 +158,13 @@ pub(super) struct Findings {
     /// Rays that adaptive sampling shoots for that error, in parts of those; between two
     /// thresholds by interpolation, none where all of them are worse.
     pub(super) adaptive_rays: Option<f64>,
-    /// For each share below which rays are left out: of the rays of a picture with one a pixel, the
-    /// part that is saved, and the error that it costs, in levels of 8 bits.
+    /// For each share below which rays are left out: of the rays of a picture with one a pixel whose
+    /// recursion ends by depth alone, the part that is saved, and the error that it costs, in levels of
+    /// 8 bits. Below 0: those that add nothing.
     pub(super) cutoffs: Vec<(f64, f64, f64)>,
 }
 
-pub(super) fn findings(rows: &[Row]) -> Vec<Findings> {
+pub(super) fn findings(rows: &[Row], by_depth: &[Row]) -> Vec<Findings> {
     let mut nums: Vec<&str> = rows.iter().map(|row| row.num.as_str()).collect();
     nums.dedup();
     nums.into_iter()
@@ -169,15 +177,14 @@ pub(super) fn findings(rows: &[Row]) -> Vec<Findings> {
                 .collect();
             adaptive.sort_by(|a, b| b.0.total_cmp(&a.0));
             let needed = uniform.and_then(|uniform| rays_for(&adaptive, uniform.rmse));
-            let whole = all().find(|row| row.aa == "off");
+            let whole = by_depth.iter().find(|row| row.num == num);
             let off = rows.iter().filter(|row| row.num == num && row.aa == "off");
             let cutoffs = whole.map_or_else(Vec::new, |whole| {
-                off.filter(|row| row.cutoff > 0.0)
-                    .map(|row| {
-                        let saved = 1.0 - row.rays as f64 / whole.rays.max(1) as f64;
-                        (row.cutoff, saved, rmse(&row.image, &whole.image))
-                    })
-                    .collect()
+                off.map(|row| {
+                    let saved = 1.0 - row.rays as f64 / whole.rays.max(1) as f64;
+                    (row.cutoff, saved, rmse(&row.image, &whole.image))
+                })
+                .collect()
             });
             Findings {
                 num: num.into(),

@@ -15,6 +15,7 @@ pub(super) fn markdown(options: &Bench, report: &Report) -> Result<String, fmt::
         queries(&mut text, scene)?;
         pictures(&mut text, options, scene)?;
     }
+    super::boards::table(&mut text, &report.boards)?;
     Ok(text)
 }
 
@@ -22,7 +23,7 @@ fn summary(text: &mut String, report: &Report) -> fmt::Result {
     writeln!(
         text,
         "| scene | numbers | RMSE of 4x4 rays, levels | adaptive rays for that, of 4x4's | \
-         left out below: rays saved, RMSE |\n|---|---|---|---|---|"
+         adaptive recursion, left out below: rays saved, RMSE |\n|---|---|---|---|---|"
     )?;
     for scene in &report.scenes {
         for found in &scene.findings {
