@@ -79,7 +79,7 @@ impl<R: Real> Sphere<R> {
     }
 
     /// Both crossings, the smaller first.
-    #[inline]
+    #[inline(always)]
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
         let (middle, half) = self.middle(ray, length)?;
         Some(self.ends(ray, length, middle, half))
@@ -135,7 +135,7 @@ impl<R: Real> Shape<R> for Sphere<R> {
         Region::Ball { center: self.center, radius: self.radius }
     }
 
-    #[inline]
+    #[inline(always)]
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
         let (near, far) = self.crossings(ray, length)?;
         if near > min {

@@ -230,3 +230,33 @@ fn whole_quotients_and_roots_are_exact() {
         }
     }
 }
+
+#[test]
+fn units_have_length_1_within_a_step_or_two() {
+    let mut random = crate::shape::testing::Random(9);
+    for up in 0..28 {
+        for _ in 0..2_000 {
+            let mut part =
+                || ((random.within(-1.0, 1.0) * 16.0) as f64 / f64::from(1_u32 << up)) * 0.49;
+            let v = Vec3::new(Fixed::new(part()), Fixed::new(part()), Fixed::new(part()));
+            let Some(unit) = v.unit() else {
+                assert_eq!(v, Vec3::default());
+                continue;
+            };
+            let exact = v.to_array().map(Fixed::to_f64);
+            let length = exact.iter().map(|x| x * x).sum::<f64>().sqrt();
+            for (x, u) in exact.iter().zip(unit.to_array()) {
+                assert!(
+                    (x / length - u.to_f64()).abs() < 1.1 / f64::from(1 << 28),
+                    "{v:?} {unit:?}"
+                );
+            }
+        }
+    }
+    let ends = Fixed::from_i32(7);
+    for v in [[-ends, -ends, -ends], [Fixed::ONE, Fixed::ZERO, Fixed::ZERO], [-Fixed::EPSILON; 3]] {
+        let unit = Vec3::from_array(v).unit().unwrap();
+        let off = (unit.dot(unit).to_num::<f64>() - 1.0).abs();
+        assert!(off < 4.0 / f64::from(1 << 28), "{v:?} {off}");
+    }
+}

@@ -88,22 +88,28 @@ impl Vector<Fixed> for Vec3 {
 
     /// Moved up as far as it goes before it is squared, so that short vectors keep their digits.
     fn unit(self) -> Option<Self> {
-        let exponent = self.max_abs().exponent_to_one();
-        // From 1 to 2; of zero it is zero still.
-        let moved = self.map(|x| {
-            let steps = x.to_bits();
-            Fixed::from_bits(if exponent >= 0 { steps << (exponent & 31) } else { steps >> 2 })
-        });
-        let squared = moved.dot(moved).to_bits() as u64;
-        let up = squared.leading_zeros() & !1;
-        // 4 or 6 when the square is from 1 to 12.
-        if up > 6 || !self.is_finite() {
+        let steps = self.to_array().map(Fixed::to_bits);
+        const FAR: i32 = i32::MAX - 1;
+        // As long as the longest of them; a negative number may be taken for one less.
+        let [a, b, c] = steps.map(|x| x ^ (x >> 31));
+        let digits = a | b | c;
+        if (digits == 0 && steps == [0; 3]) || (digits >= FAR && !self.is_finite()) {
             return None;
         }
-        // 1 / length, at most 1, in 31 digits.
-        let inverse = reciprocal_root(((squared << up) >> 32) as u32) >> (4 - up / 2);
-        let part = |x: Fixed| Fixed::rounded(i64::from(x.to_bits()) * i64::from(inverse), 31);
-        Some(moved.map(part))
+        let up = digits.leading_zeros() - 1;
+        // The longest has 31 digits now, the square 61 to 64; of those the upper 32, moved evenly.
+        let [x, y, z] = steps.map(|x| x << up);
+        let square = |x: i32| (i64::from(x) * i64::from(x)) as u64;
+        let squared = square(x) + square(y) + square(z);
+        let short = squared >> 62 == 0;
+        let upper = ((if short { squared << 2 } else { squared }) >> 32) as u32;
+        // 1 / length, at most 1, in 30 digits.
+        let inverse = i64::from(reciprocal_root(upper) >> 2);
+        let part = |x: i32| {
+            let x = i64::from(if short { x } else { x >> 1 });
+            Fixed::from_bits(((x * inverse + (1 << 31)) >> 32) as i32)
+        };
+        Some(Self::from_array([part(x), part(y), part(z)]))
     }
 
     fn across(self, other: Self) -> Self {
