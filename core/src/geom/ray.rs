@@ -106,6 +106,12 @@ impl<R: Real> Ray<R> {
         self.squared
     }
 
+    /// Whether its direction is of length 1, which may be rounded where numbers are exact.
+    pub(crate) fn is_unit(&self) -> bool {
+        let slack = if R::EXACT { R::ulps(4) } else { R::ZERO };
+        (self.squared - R::ONE).abs() <= slack
+    }
+
     /// How far from the middle of all coordinates it starts, at most; [`Real::INFINITY`] when the
     /// direction has to be scaled before anything is computed with it.
     pub(crate) fn reach(&self) -> R {

@@ -51,7 +51,7 @@ impl<R: Real> Length<R> {
             };
         }
         // A length of 1 may be rounded; what that makes of a hit is less than a step.
-        let (inverse, unit) = if (ray.squared() - R::ONE).abs() <= R::ulps(4) {
+        let (inverse, unit) = if ray.is_unit() {
             (R::ONE, Some(ray.direction()))
         } else {
             (R::ONE / ray.squared(), ray.direction().unit())

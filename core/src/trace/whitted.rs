@@ -282,7 +282,9 @@ impl<R: Real> Arrival<'_, R> {
         if !(highlight > R::ZERO) {
             return matt;
         }
-        let highlight = (highlight / self.ray.squared().sqrt()).min(R::ONE);
+        let length = if self.ray.is_unit() { R::ONE } else { self.ray.squared().sqrt() };
+        let highlight = if length == R::ONE { highlight } else { highlight / length };
+        let highlight = highlight.min(R::ONE);
         matt + Vec3::<R>::splat(specular * highlight.powf(shine))
     }
 
