@@ -2,7 +2,7 @@
 //! which figures of brute force and of parry3d are known (see the README of the boards).
 
 use crate::queries::Shot;
-use crate::structure::{Bvh, Grid, Naive, Octree, StampedGrid};
+use crate::structure::{Bvh, Grid, Naive, Octree, StampedGrid, Tree};
 use crate::xorshift::Xorshift;
 use crate::{Structure, Subject};
 use core::marker::PhantomData;
@@ -28,6 +28,8 @@ pub type SpheresGrid = Spheres<Grid<9, 9, 9>>;
 pub type SpheresOctree = Spheres<Octree<16, 3>>;
 /// Spheres in the best hierarchy, of those with 48 to 255 nodes.
 pub type SpheresBvh = Spheres<Bvh<48>>;
+/// Spheres inserted one by one into a tree of boxes.
+pub type SpheresTree = Spheres<Tree>;
 /// Triangles, every one tested.
 pub type TrianglesNaive = Triangles<Naive>;
 /// Triangles in the best grid, as for spheres.

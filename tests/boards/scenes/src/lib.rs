@@ -94,6 +94,7 @@ pub fn all(each: &mut impl Each) {
     each.subject::<clouds::SpheresGrid>();
     each.subject::<clouds::SpheresOctree>();
     each.subject::<clouds::SpheresBvh>();
+    each.subject::<clouds::SpheresTree>();
     each.subject::<clouds::TrianglesNaive>();
     each.subject::<clouds::TrianglesGrid>();
     each.subject::<clouds::TrianglesStampedGrid>();

@@ -1,7 +1,8 @@
 //! Structures with their parameters, as types: what a subject names, and nothing else, is linked.
 
 use kibiray::accel::octree::{self, StoppedBy};
-use kibiray::accel::{self, Accel, BuildError, Mailbox, mailbox};
+use kibiray::accel::{self, Accel, BuildError, Mailbox, mailbox, tree};
+use kibiray::geom::Aabb;
 use kibiray::memory::Arena;
 use kibiray::num::Real;
 use kibiray::scene::{Scene, Shapes};
@@ -139,6 +140,28 @@ impl<R: Real, const NODES: usize> Structure<R> for Bvh<NODES> {
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError> {
         accel::Bvh::build(scene, NODES, arena)
+    }
+
+    fn mailbox<'m>(_shapes: usize, _arena: &mut Arena<'m>) -> Result<mailbox::Off, BuildError> {
+        Ok(mailbox::Off)
+    }
+}
+
+/// A tree of boxes, into which one shape is inserted after the other in the order of their ids.
+#[derive(Clone, Copy, Debug)]
+pub struct Tree;
+
+impl<R: Real> Structure<R> for Tree {
+    const NAME: &'static str = "tree";
+    type Built<'m> = accel::Tree<'m, R, Aabb<R>, u16>;
+    type Mailbox<'m> = mailbox::Off;
+
+    fn build<'m, S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        arena: &mut Arena<'m>,
+    ) -> Result<Self::Built<'m>, BuildError> {
+        let builder = tree::Builder::GoldsmithSalmon(tree::Insertion::File);
+        accel::Tree::build(scene, tree::Settings { builder, ..Default::default() }, arena)
     }
 
     fn mailbox<'m>(_shapes: usize, _arena: &mut Arena<'m>) -> Result<mailbox::Off, BuildError> {
