@@ -107,7 +107,9 @@ fn drift<R: Tested>(rays: usize, kinds: &[accel::Kind], every: usize) -> Tally {
         };
         let places: Vec<[usize; 2]> = (1..CELLS - 1)
             .flat_map(|i| (1..CELLS - 1).map(move |j| [i, j]))
-            .filter(|[i, j]| (i + j) % every == 0 && (!is_octree || (*i < 256 && *j > 768)))
+            // A leaf of an octree is larger than a cell where it holds a single box.
+            .filter(|[i, j]| !is_octree || ((2..256).contains(i) && *j > 769))
+            .filter(|[i, j]| (i + j) % every == 0)
             .collect();
         let mut boxes: Vec<AxisBox<R>> = places
             .iter()
