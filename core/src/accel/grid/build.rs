@@ -189,3 +189,28 @@ fn for_cells<R: Real, S: Shapes<R>, L: Listing>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Sphere;
+    use glam::vec3;
+
+    #[test]
+    fn a_grid_suits_shapes_of_one_size_everywhere() {
+        let mut balls: [Sphere<f32>; 216] = core::array::from_fn(|i| {
+            Sphere::new(vec3((i % 6) as f32, (i / 6 % 6) as f32, (i / 36) as f32), 0.3)
+        });
+        let suited = |balls: &[Sphere<f32>]| suits(&Scene::new(balls).unwrap(), Huge::Aside);
+        assert!(suited(&balls));
+        assert!(!suited(&[]));
+        // A corner is empty.
+        let cut = balls.map(|ball| if ball.center.element_sum() > 9.0 { balls[0] } else { ball });
+        assert!(!suited(&cut));
+        // One in five is much larger.
+        for ball in balls.iter_mut().step_by(5) {
+            *ball = Sphere::new(vec3(2.5, 2.5, 2.5), 2.0);
+        }
+        assert!(!suited(&balls));
+    }
+}

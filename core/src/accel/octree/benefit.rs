@@ -1,7 +1,8 @@
 //! Dividing first what saves most tests for its bytes.
 
-use super::build::{Growing, Refusal, StoppedBy};
+use super::build::{Growing, Refusal};
 use super::cursor::Cursor;
+use super::growth::StoppedBy;
 use super::storage::{Content, Storage};
 use crate::accel::{Id, Listing};
 use crate::num::Real;

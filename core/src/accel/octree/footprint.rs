@@ -1,8 +1,9 @@
 //! How many bytes an octree takes, counted without memory.
 
 use super::Octree;
-use super::build::{Growth, Order, is_listed, room};
+use super::build::{is_listed, room};
 use super::code::{Code, DEEPEST};
+use super::growth::{Growth, Order};
 use super::storage::{Storage, most};
 use crate::accel::{BuildError, Id, Listing};
 use crate::memory::{Footprint, ends_bytes};

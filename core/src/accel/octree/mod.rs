@@ -17,13 +17,14 @@ mod code;
 mod cursor;
 mod footprint;
 mod gaps;
+mod growth;
 mod implicit;
 mod storage;
 mod walk;
 
 pub use any::{AnyOctree, Settings, Store};
-pub use build::{Growth, Limits, Lists, Order, StoppedBy};
 pub use code::DEEPEST;
+pub use growth::{Growth, Limits, Lists, Order, StoppedBy};
 pub use implicit::Implicit;
 pub use storage::{Content, Hashed, Links, Storage};
 pub use walk::{By, Walk};
