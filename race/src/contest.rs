@@ -7,6 +7,7 @@ use crate::rays::{Query, Set};
 use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// Triangle tests that right answers may cost, a ray set.
 const ORACLE_TESTS: f64 = 2e8;
@@ -56,11 +57,21 @@ pub fn progress(steps: usize) -> ProgressBar {
 }
 
 /// Runs all scenes and ray sets; gives a line a contestant, scene and set.
-pub fn run(repeat: usize, scenes: &[String]) -> Result<Vec<Value>> {
+pub fn run(
+    repeat: usize,
+    scenes: &[String],
+    peers: &[String],
+    sponza: Option<&Path>,
+) -> Result<Vec<Value>> {
     let mut lines = vec![];
     let wanted = |name: &str| scenes.is_empty() || scenes.iter().any(|scene| scene == name);
-    for knot in KNOTS.into_iter().filter(|knot| wanted(knot.0)) {
-        let mesh = Mesh::knot(knot);
+    let mut meshes: Vec<_> =
+        KNOTS.into_iter().filter(|knot| wanted(knot.0)).map(Mesh::knot).collect();
+    if let Some(path) = sponza.filter(|_| wanted("sponza")) {
+        meshes.push(Mesh::sponza(path)?);
+    }
+    let runs = |name: &str| peers.is_empty() || peers.iter().any(|peer| name.starts_with(peer));
+    for mesh in meshes {
         let scene = ours::scene(&mesh).map_err(anyhow::Error::msg)?;
         let mut entries = vec![];
         let mut enter = |name: &str, budget, built: Result<Built, String>| match built {
@@ -76,9 +87,12 @@ pub fn run(repeat: usize, scenes: &[String]) -> Result<Vec<Value>> {
             })),
         };
         for (name, structure, budget, bytes) in ours::entries(mesh.len()) {
+            if !runs(&name) {
+                continue;
+            }
             enter(&name, budget, ours::build(scene, structure, bytes));
         }
-        for (name, build) in peer::OTHERS {
+        for (name, build) in peer::OTHERS.into_iter().filter(|peer| runs(peer.0)) {
             enter(name, "", build(&mesh));
         }
         for set in Set::all(&mesh) {

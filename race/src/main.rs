@@ -29,6 +29,10 @@ struct Args {
     /// The simulator, for whole frames and sizes; `race/run` builds it.
     #[arg(long, default_value = "host-sim")]
     host_sim: PathBuf,
+    /// Sponza's palace, a file of the crate bvh; `race/run` finds it. Without it there is no such
+    /// scene.
+    #[arg(long)]
+    sponza: Option<PathBuf>,
     /// Written beside the results.
     #[arg(long, default_value = "")]
     date: String,
@@ -43,9 +47,12 @@ enum What {
         /// The fastest of so many rounds counts.
         #[arg(long, default_value_t = 5)]
         repeat: usize,
-        /// Only these scenes: knot-1k, knot-6k, knot-100k.
+        /// Only these scenes: knot-1k, knot-6k, knot-100k, sponza.
         #[arg(long)]
         scene: Vec<String>,
+        /// Only contestants whose names begin so.
+        #[arg(long)]
+        peer: Vec<String>,
     },
     /// Whole frames of the Standard Procedural Databases: kibiray, Tachyon, POV-Ray.
     Frames {
@@ -66,14 +73,14 @@ fn main() -> Result<()> {
     let args = Args::parse();
     std::fs::create_dir_all(&args.out)?;
     let all = [
-        What::Rays { repeat: 5, scene: vec![] },
+        What::Rays { repeat: 5, scene: vec![], peer: vec![] },
         What::Frames { repeat: 3, scene: vec![] },
         What::Size,
     ];
     for what in args.what.clone().map_or(all.to_vec(), |what| vec![what]) {
         match what {
-            What::Rays { repeat, scene } => {
-                save(&args, "rays", contest::run(repeat, &scene)?)?;
+            What::Rays { repeat, scene, peer } => {
+                save(&args, "rays", contest::run(repeat, &scene, &peer, args.sponza.as_deref())?)?;
             }
             What::Frames { repeat, scene } => {
                 save(&args, "frames", frames::run(&args.host_sim, repeat, &scene)?)?;

@@ -1,5 +1,8 @@
 //! The scenes: closed meshes, made here.
 
+use anyhow::{Context, Result};
+use std::path::Path;
+
 /// A point or a direction.
 pub type V = [f32; 3];
 type D = [f64; 3];
@@ -43,6 +46,36 @@ impl Mesh {
             }
         }
         mesh
+    }
+
+    /// M. Dabrovic's model of Sponza's palace, a Wavefront file: 66,450 triangles once faces of four
+    /// corners are cut as fans. Faces without a surface stay out, for everyone.
+    pub fn sponza(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+        let mut mesh = Self { name: "sponza", vertices: vec![], indices: vec![] };
+        for line in text.lines() {
+            let mut words = line.split_whitespace();
+            match words.next() {
+                Some("v") => {
+                    let numbers: Vec<f32> = words.map(str::parse).collect::<Result<_, _>>()?;
+                    mesh.vertices.push(numbers.try_into().ok().context("three coordinates")?);
+                }
+                Some("f") => {
+                    let index = |word: &str| word.split('/').next().unwrap_or(word).parse::<u32>();
+                    let corners: Vec<u32> = words.map(index).collect::<Result<_, _>>()?;
+                    let fan = corners.windows(2).skip(1);
+                    mesh.indices.extend(fan.map(|pair| [corners[0] - 1, pair[0] - 1, pair[1] - 1]));
+                }
+                _ => {}
+            }
+        }
+        let has_surface = |i: &usize| {
+            let [a, b, c] = mesh.triangle(*i).map(wide);
+            let n = cross(sub(b, a), sub(c, a));
+            dot(n, n) > 0.0
+        };
+        mesh.indices = (0..mesh.len()).filter(has_surface).map(|i| mesh.indices[i]).collect();
+        Ok(mesh)
     }
 
     /// Number of triangles.

@@ -2,7 +2,7 @@
 
 use super::Mailbox;
 use crate::geom::{Interval, Ray};
-use crate::num::Real;
+use crate::num::{FOURS, Real};
 use crate::probe::Probe;
 use crate::scene::{Framing, Scene, Shapes};
 use core::ops::Range;
@@ -75,7 +75,7 @@ pub trait Accel<R: Real> {
         let t = if as_asked {
             local
         } else {
-            Framing::of(scene, ray, interval).restore(interval, local)
+            Framing::of(scene, *ray, interval).restore(interval, local)
         };
         Some(Hit { t, id, local, as_asked })
     }
@@ -119,19 +119,25 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     probe: &mut impl Probe,
     goal: G,
 ) -> (G, R) {
-    let framed;
-    let (ray, interval, near) = if Framing::is_needless(scene, ray) {
-        (ray, interval, true)
+    let (copied, framing, own);
+    let (ray, interval, near) = if FOURS {
+        let (ray, interval, near) = framed(scene, ray, interval);
+        copied = ray;
+        (&copied, interval, near)
     } else {
-        framed = Framing::of(scene, ray, interval);
-        (&framed.ray, framed.interval, framed.near)
-    };
-    let own;
-    let ray = if ray.slack() == scene.slack() {
-        ray
-    } else {
-        own = ray.with_slack(scene.slack());
-        &own
+        // Where registers are few and so is memory for code, a copy is made only if need be.
+        let (ray, interval, near) = if Framing::is_needless(scene, ray) {
+            (ray, interval, true)
+        } else {
+            framing = Framing::of(scene, *ray, interval);
+            (&framing.ray, framing.interval, framing.near)
+        };
+        if ray.slack() == scene.slack() {
+            (ray, interval, near)
+        } else {
+            own = ray.with_slack(scene.slack());
+            (&own, interval, near)
+        }
     };
     let shapes = scene.shapes();
     let mut search = Search {
@@ -161,6 +167,23 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
         accel.walk(ray, &mut search);
     }
     (search.goal, search.limit)
+}
+
+/// The ray as it is traced, and whether it comes near the bounded shapes. A copy: that stays in
+/// registers, what a pointer leads to would not.
+#[inline(always)]
+fn framed<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    ray: &Ray<R>,
+    interval: Interval<R>,
+) -> (Ray<R>, Interval<R>, bool) {
+    let (ray, interval, near) = if Framing::is_needless(scene, ray) {
+        (*ray, interval, true)
+    } else {
+        let Framing { ray, interval, near, .. } = Framing::of(scene, *ray, interval);
+        (ray, interval, near)
+    };
+    (ray.with_slack(scene.slack()), interval, near)
 }
 
 /// What a query looks for.

@@ -40,6 +40,7 @@ impl<R: Real> Ray<R> {
     ///
     /// # Errors
     /// [`NotARay`] when a component is infinite or not a number or the direction is zero.
+    #[inline]
     pub fn new(origin: Vec3<R>, direction: Vec3<R>) -> Result<Self, NotARay> {
         let reach = origin.max_abs();
         let ray = if origin.is_finite() { Self::from(origin, direction, reach) } else { None };
@@ -51,9 +52,8 @@ impl<R: Real> Ray<R> {
     #[inline]
     pub(crate) fn from(origin: Vec3<R>, direction: Vec3<R>, reach: R) -> Option<Self> {
         let squared = R::narrow(direction.dot(direction));
-        let ordinary = R::is_ordinary(squared);
         let ray = Self { origin, direction, squared, reach, slack: R::ZERO, left: Self::FREE };
-        if ordinary && reach < R::INFINITY { Some(ray) } else { ray.extraordinary() }
+        ray.checked(R::is_ordinary(squared) && reach < R::INFINITY)
     }
 
     /// Another ray of the same scene: from a point as in [`Ray::from`], its direction of the squared
@@ -68,16 +68,19 @@ impl<R: Real> Ray<R> {
         left: u32,
     ) -> Option<Self> {
         let ray = Self { origin, direction, squared, reach, slack: self.slack, left };
-        let ordinary = self.reach.max(reach) < R::INFINITY;
-        if ordinary { Some(ray) } else { ray.extraordinary() }
+        ray.checked(self.reach.max(reach) < R::INFINITY)
     }
 
-    #[cold]
-    #[inline(never)]
-    fn extraordinary(self) -> Option<Self> {
-        let finite = self.origin.is_finite() && self.direction.is_finite();
-        let ray = Self { reach: R::INFINITY, ..self };
-        (finite && !self.direction.is_zero()).then_some(ray)
+    /// The ray stays in registers: a call that took or gave all of it would force it into memory.
+    #[inline(always)]
+    fn checked(mut self, ordinary: bool) -> Option<Self> {
+        if !ordinary {
+            if !is_extraordinary::<R>(self.origin, self.direction) {
+                return None;
+            }
+            self.reach = R::INFINITY;
+        }
+        Some(self)
     }
 
     /// Where it starts.
@@ -140,6 +143,13 @@ impl<R: Real> Ray<R> {
     pub(crate) fn with_slack(self, slack: R) -> Self {
         Self { slack, ..self }
     }
+}
+
+/// Whether it is a ray, though one to be scaled before anything is computed with it.
+#[cold]
+#[inline(never)]
+fn is_extraordinary<R: Real>(origin: Vec3<R>, direction: Vec3<R>) -> bool {
+    origin.is_finite() && direction.is_finite() && !direction.is_zero()
 }
 
 /// The reciprocals of a ray's direction, for tests against planes across the axes.

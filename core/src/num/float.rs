@@ -217,7 +217,7 @@ macro_rules! float {
             fn rebased(&self, origin: i32, shift: u8) -> Self {
                 Self {
                     start: self.start + self.width * origin as $f,
-                    width: self.width * (1_i32 << shift) as $f,
+                    width: self.width * power_of_two(shift) as $f,
                 }
             }
         }
@@ -237,6 +237,16 @@ macro_rules! float {
             }
         }
     };
+}
+
+/// 2 to the power of 0 to 15, looked up: to shift and to convert takes longer.
+#[inline(always)]
+fn power_of_two(exponent: u8) -> f32 {
+    static POWERS: [f32; 16] = [
+        1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0, 8192.0,
+        16384.0, 32768.0,
+    ];
+    POWERS.get(usize::from(exponent % 16)).copied().unwrap_or(1.0)
 }
 
 /// An extent divided into equal cells.

@@ -31,7 +31,7 @@ impl<R: Real> Framing<R> {
     #[inline(never)]
     pub(crate) fn of<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
-        ray: &Ray<R>,
+        ray: Ray<R>,
         asked: Interval<R>,
     ) -> Self {
         let (ray, far) = (ray.with_slack(scene.slack()), scene.far());

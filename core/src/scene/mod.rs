@@ -206,7 +206,7 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         let ray = if hit.as_asked {
             ray
         } else {
-            framed = Framing::of(self, ray, Interval::RAY).ray;
+            framed = Framing::of(self, *ray, Interval::RAY).ray;
             &framed
         };
         // As it was when it hit.

@@ -33,8 +33,8 @@ use super::{Accel, Id, Visitor};
 use crate::geom::Ray;
 use crate::num::Real;
 use crate::probe::Probe;
-use node::{Node, WIDTH, clip};
-use stack::Stack;
+use node::{Node, Room, WIDTH, hits};
+use stack::{Pending, Stack};
 use units::Units;
 
 /// Nodes from the root to any leaf at most: three more than the greatest number of shapes takes
@@ -83,11 +83,11 @@ impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
     #[inline(always)]
     fn child(&self, number: u32) -> Child<'m, I> {
         let (node, place) = (number as usize / WIDTH, number as usize % WIDTH);
-        let ends = self.nodes.get(node).map_or(0, |[.., ends]| u64::from_le_bytes(*ends));
+        let ends = self.nodes.get(node).map_or(&[0; WIDTH], |[.., ends]| ends);
         let [first, next] = self.links.get(node).copied().unwrap_or([I::new(0); 2]);
+        let at = |place: usize| ends.get(place).copied().unwrap_or(0).into();
         // It begins where the one before it ends.
-        let begin = (ends << 8 >> (8 * place)) as usize & 0xff;
-        let end = (ends >> (8 * place)) as usize & 0xff;
+        let (begin, end): (usize, usize) = (at(place.wrapping_sub(1)), at(place));
         if begin < end {
             let first = first.get();
             Child::Leaf(self.ids.get(first + begin..first + end).unwrap_or_default())
@@ -100,17 +100,33 @@ impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
 impl<R: Real, I: Id> Accel<R> for Bvh<'_, R, I> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let courses = self.units.courses(ray);
-        let (mut near, mut far) = ([R::ZERO; WIDTH], [R::ZERO; WIDTH]);
-        let mut stack = Stack::new();
+        let (mut stack, mut room) = (Stack::new(), Room::default());
         let mut number = 0;
         // Every node is met once at most.
         for _ in 0..self.nodes.len() {
             let Some(node) = self.nodes.get(number) else { return };
             visitor.probe().step();
-            clip(node, &courses, visitor.start(), visitor.limit(), &mut near, &mut far);
-            stack.push(number, &near, &far);
+            // The nearest one does not go through memory: most often it is the only one.
+            let mut nearest: Option<Pending<R>> = None;
+            let below = stack.len();
+            let interval = (visitor.start(), visitor.limit());
+            hits(node, &courses, interval, &mut room, |place, t| {
+                let child = (t, (number * WIDTH + place) as u32);
+                nearest = match nearest {
+                    Some(other) if other.0 <= t => {
+                        stack.insert(below, child);
+                        Some(other)
+                    }
+                    Some(other) => {
+                        stack.insert(below, other);
+                        Some(child)
+                    }
+                    None => Some(child),
+                };
+            });
             number = loop {
-                let Some((t, child)) = stack.pop() else { return };
+                let Some((t, child)) = nearest.or_else(|| stack.pop()) else { return };
+                nearest = None;
                 // The limit may have come nearer since.
                 if !(t <= visitor.limit()) {
                     continue;

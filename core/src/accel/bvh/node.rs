@@ -72,42 +72,78 @@ impl Scale {
     }
 }
 
-/// A number a child.
-pub(super) type Wide<R> = [R; WIDTH];
-
-/// Where a ray enters and leaves the boxes of the eight children, between two parameters. A box
-/// that it passes by is left before it is entered.
+/// Hands over the places of those children of which a ray meets the box between two parameters, and
+/// where it enters it.
 ///
-/// T. L. Kay and J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986. Not inlined, and in
-/// fours: numbers that go to memory side by side are what makes compilers compute them side by
+/// T. L. Kay and J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986.
+#[inline(always)]
+pub(super) fn hits<R: Real>(
+    node: &Node,
+    courses: &[Course<R>; 3],
+    (start, limit): (R, R),
+    room: &mut Room<R>,
+    mut hit: impl FnMut(usize, R),
+) {
+    if FOURS {
+        clip(node, courses, start, limit, room);
+        let mut hits = u64::from_le_bytes(room.hits);
+        while hits != 0 {
+            let place = hits.trailing_zeros() as usize / 8;
+            hits &= hits - 1;
+            hit(place, room.near.get(place).copied().unwrap_or(R::ZERO));
+        }
+    } else {
+        let slabs = Slabs::all(node, courses);
+        for place in 0..WIDTH {
+            if let Some(t) = clip_one(&slabs, place, start, limit) {
+                hit(place, t);
+            }
+        }
+    }
+}
+
+/// Room for what a ray's clipping finds out of the children of a node.
+#[derive(Default)]
+pub(super) struct Room<R> {
+    /// Their sides as parameters: entered and left along each axis.
+    sides: [[R; WIDTH]; 6],
+    /// Where the ray enters their boxes.
+    near: [R; WIDTH],
+    /// 1 if it does, else 0.
+    hits: [u8; WIDTH],
+}
+
+/// Where a ray enters the boxes of the eight children, if at all. A box that it passes by is left
+/// before it is entered.
+///
+/// Not inlined, and numbers go to memory side by side: that makes compilers compute them side by
 /// side.
 #[inline(never)]
-pub(super) fn clip<R: Real>(
+fn clip<R: Real>(
     node: &Node,
-    [x, y, z]: &[Course<R>; 3],
+    courses: &[Course<R>; 3],
     start: R,
     limit: R,
-    near: &mut Wide<R>,
-    far: &mut Wide<R>,
+    Room { sides: [x0, x1, y0, y1, z0, z1], near, hits }: &mut Room<R>,
 ) {
-    let [.., [x0, x1, y0, y1, z0, z1, xy, shift_z], _] = node;
-    let slabs = [
-        Slabs::of(node, x, [*x0, *x1], xy & 15),
-        Slabs::of(node, y, [*y0, *y1], xy >> 4),
-        Slabs::of(node, z, [*z0, *z1], shift_z & 15),
-    ];
-    if !FOURS {
-        // It pays to stop at the first axis along which a ray passes a box by; the answer is the same.
-        for (child, (near, far)) in near.iter_mut().zip(far.iter_mut()).enumerate() {
-            (*near, *far) = clip_one(&slabs, child, start, limit);
-        }
-        return;
+    let slabs = Slabs::all(node, courses);
+    for (slab, (near, far)) in
+        slabs.iter().zip([(&mut *x0, &mut *x1), (&mut *y0, &mut *y1), (&mut *z0, &mut *z1)])
+    {
+        slab.all_at(slab.near, near);
+        slab.all_at(slab.far, far);
     }
-    let (near_0, far_0) = clip_four::<0, R>(&slabs, start, limit);
-    let (near_4, far_4) = clip_four::<4, R>(&slabs, start, limit);
-    let join = |[a, b, c, d]: [R; 4], [e, f, g, h]: [R; 4]| [a, b, c, d, e, f, g, h];
-    *near = join(near_0, near_4);
-    *far = join(far_0, far_4);
+    // As a processor's instruction does; `Real::max` and `min` decide more than is needed here.
+    let greater = |a: R, b: R| if a > b { a } else { b };
+    let smaller = |a: R, b: R| if a < b { a } else { b };
+    let nearest = x0.iter().zip(y0).zip(z0);
+    let farthest = x1.iter().zip(y1).zip(z1);
+    let children = near.iter_mut().zip(hits).zip(nearest.zip(farthest));
+    for ((near, hit), (((x0, y0), z0), ((x1, y1), z1))) in children {
+        *near = greater(greater(*x0, *y0), greater(*z0, start));
+        let far = smaller(smaller(*x1, *y1), smaller(*z1, limit));
+        *hit = u8::from(*near <= far);
+    }
 }
 
 /// The children's sides along one axis, seen by a ray.
@@ -120,6 +156,17 @@ struct Slabs<'n, R: Real> {
 }
 
 impl<'n, R: Real> Slabs<'n, R> {
+    /// Along all axes.
+    #[inline(always)]
+    fn all(node: &'n Node, [x, y, z]: &[Course<R>; 3]) -> [Self; 3] {
+        let [.., [x0, x1, y0, y1, z0, z1, xy, shift_z], _] = node;
+        [
+            Self::of(node, x, [*x0, *x1], xy & 15),
+            Self::of(node, y, [*y0, *y1], xy >> 4),
+            Self::of(node, z, [*z0, *z1], shift_z & 15),
+        ]
+    }
+
     #[inline(always)]
     fn of(node: &'n Node, course: &Course<R>, origin: [u8; 2], shift: u8) -> Self {
         let row = |row: usize| node.get(row % ROWS).unwrap_or(&[0; WIDTH]);
@@ -136,20 +183,22 @@ impl<'n, R: Real> Slabs<'n, R> {
         self.steps.at(side.into())
     }
 
-    /// Four sides from `AT` on as parameters.
+    /// All sides as parameters.
     #[inline(always)]
-    fn four<const AT: usize>(&self, sides: &[u8; WIDTH]) -> [R; 4] {
-        let four = sides.get(AT..).and_then(|sides| sides.first_chunk()).unwrap_or(&[0; 4]);
-        four.map(|side| self.at(side))
+    fn all_at(&self, sides: &[u8; WIDTH], at: &mut [R; WIDTH]) {
+        for (at, side) in at.iter_mut().zip(sides) {
+            *at = self.at(*side);
+        }
     }
 }
 
-/// [`clip`] for one child.
+/// Where a ray enters the box of one child. It pays to stop at the first axis along which it passes
+/// by; the answer is the same.
 #[inline(always)]
-fn clip_one<R: Real>(slabs: &[Slabs<'_, R>; 3], child: usize, start: R, limit: R) -> (R, R) {
+fn clip_one<R: Real>(slabs: &[Slabs<'_, R>; 3], place: usize, start: R, limit: R) -> Option<R> {
     let (mut enter, mut leave) = (start, limit);
     for slab in slabs {
-        let side = |sides: &[u8; WIDTH]| sides.get(child % WIDTH).copied().unwrap_or(0);
+        let side = |sides: &[u8; WIDTH]| sides.get(place % WIDTH).copied().unwrap_or(0);
         let (near, far) = (slab.at(side(slab.near)), slab.at(side(slab.far)));
         if near > enter {
             enter = near;
@@ -158,30 +207,8 @@ fn clip_one<R: Real>(slabs: &[Slabs<'_, R>; 3], child: usize, start: R, limit: R
             leave = far;
         }
         if !(enter <= leave) {
-            break;
+            return None;
         }
     }
-    (enter, leave)
-}
-
-/// [`clip`] for four children from `AT` on.
-#[inline(always)]
-fn clip_four<const AT: usize, R: Real>(
-    [x, y, z]: &[Slabs<'_, R>; 3],
-    start: R,
-    limit: R,
-) -> ([R; 4], [R; 4]) {
-    // As a processor's instruction does; `Real::max` and `min` decide more than is needed here.
-    let greater = |a: R, b: R| if a > b { a } else { b };
-    let smaller = |a: R, b: R| if a < b { a } else { b };
-    let near = zip(x.four::<AT>(x.near), y.four::<AT>(y.near), greater);
-    let near = zip(near, z.four::<AT>(z.near).map(|z| greater(z, start)), greater);
-    let far = zip(x.four::<AT>(x.far), y.four::<AT>(y.far), smaller);
-    let far = zip(far, z.four::<AT>(z.far).map(|z| smaller(z, limit)), smaller);
-    (near, far)
-}
-
-#[inline(always)]
-fn zip<R: Copy>([a, b, c, d]: [R; 4], [e, f, g, h]: [R; 4], op: impl Fn(R, R) -> R) -> [R; 4] {
-    [op(a, e), op(b, f), op(c, g), op(d, h)]
+    Some(enter)
 }

@@ -1,7 +1,7 @@
 //! What waits while a ray goes down a hierarchy.
 
 use super::LEVELS;
-use super::node::{WIDTH, Wide};
+use super::node::WIDTH;
 use crate::num::Real;
 use heapless::Vec;
 
@@ -9,8 +9,8 @@ use heapless::Vec;
 /// place there.
 pub(super) type Pending<R> = (R, u32);
 
-/// Every level leaves all but one of a node's children behind, and the last one none.
-const MOST: usize = LEVELS * (WIDTH - 1) + 1;
+/// Every level leaves all but one of a node's children behind.
+const MOST: usize = LEVELS * (WIDTH - 1);
 
 /// A stack that cannot overflow, as no hierarchy has more levels: 800 bytes in `f32`.
 pub(super) struct Stack<R> {
@@ -22,33 +22,23 @@ impl<R: Real> Stack<R> {
         Self { pending: Vec::new() }
     }
 
-    /// Puts those children of a node onto the stack that are not left before they are entered, the
-    /// nearest one last.
+    /// How many wait.
     #[inline(always)]
-    pub(super) fn push(&mut self, node: usize, near: &Wide<R>, far: &Wide<R>) {
-        let waiting = self.pending.len();
-        let mut hit = 0_u32;
-        for (place, (near, far)) in near.iter().zip(far).enumerate() {
-            hit |= u32::from(near <= far) << place;
-        }
-        while hit != 0 {
-            let place = hit.trailing_zeros();
-            hit &= hit - 1;
-            let t = near.get(place as usize % WIDTH).copied().unwrap_or(R::ZERO);
-            let child = (t, (node * WIDTH) as u32 + place);
-            // Those that are nearer move up.
-            let mut at = self.pending.len();
-            let _ = self.pending.push(child);
-            while at > waiting {
-                match self.pending.get_mut(at - 1..=at) {
-                    Some([a, b]) if a.0 < t => *b = *a,
-                    _ => break,
-                }
-                at -= 1;
+    pub(super) fn len(&self) -> usize {
+        self.pending.len()
+    }
+
+    /// Puts a child onto the stack, above those that are nearer, but for the first `below`.
+    #[inline(always)]
+    pub(super) fn insert(&mut self, below: usize, child: Pending<R>) {
+        let mut at = self.pending.len();
+        let _ = self.pending.push(child);
+        while at > below {
+            match self.pending.get_mut(at - 1..=at) {
+                Some([a, b]) if a.0 < child.0 => (*a, *b) = (*b, *a),
+                _ => break,
             }
-            if let Some(pending) = self.pending.get_mut(at) {
-                *pending = child;
-            }
+            at -= 1;
         }
     }
 

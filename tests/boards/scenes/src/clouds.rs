@@ -78,16 +78,23 @@ pub(crate) static TRIANGLES: [Triangle<f32>; COUNT] = {
     triangles
 };
 
-/// A thousand rays from a sphere of radius 3 to points of the cube.
+/// A thousand rays from a sphere to points of a box, both around the origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Inwards {
     random: Xorshift,
+    radius: f32,
+    half: Vec3,
     left: u32,
 }
 
 impl Inwards {
+    /// From a sphere of radius 3 to the cube.
     pub(crate) const fn new() -> Self {
-        Self { random: Xorshift(0x9e37_79b9), left: 1000 }
+        Self::from(3.0, Vec3::ONE)
+    }
+
+    pub(crate) const fn from(radius: f32, half: Vec3) -> Self {
+        Self { random: Xorshift(0x9e37_79b9), radius, half, left: 1000 }
     }
 
     fn cube(&mut self) -> Vec3 {
@@ -111,8 +118,8 @@ impl Iterator for Inwards {
 
     fn next(&mut self) -> Option<Shot<f32>> {
         self.left = self.left.checked_sub(1)?;
-        let origin = self.direction() * 3.0;
-        let direction = (self.cube() - origin).normalize();
+        let origin = self.direction() * self.radius;
+        let direction = (self.cube() * self.half - origin).normalize();
         Some(Shot { ray: Ray::new(origin, direction).ok()?, between: Interval::RAY })
     }
 }

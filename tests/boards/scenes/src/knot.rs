@@ -18,9 +18,11 @@ const CORNERS: usize = 8;
 const COUNT: usize = 2 * RINGS * CORNERS;
 const TUBE: f64 = 0.4;
 
-/// The cosine and the sine of a ring's and of a corner's step, 1/64 and 1/8 of a turn.
-const STEP: [f64; 2] = [0.995_184_726_672_196_9, 0.098_017_140_329_560_6];
-const EIGHTH: [f64; 2] = [core::f64::consts::FRAC_1_SQRT_2; 2];
+/// The cosine and the sine of 1/128, 1/64, 1/16 and 1/8 of a turn: steps of rings and of corners.
+pub(crate) const TURN_128: [f64; 2] = [0.998_795_456_205_172_4, 0.049_067_674_327_418_01];
+const TURN_64: [f64; 2] = [0.995_184_726_672_196_9, 0.098_017_140_329_560_6];
+pub(crate) const TURN_16: [f64; 2] = [0.923_879_532_511_286_7, 0.382_683_432_365_089_8];
+const TURN_8: [f64; 2] = [core::f64::consts::FRAC_1_SQRT_2; 2];
 
 /// The product of two complex numbers: of two turns, one after the other.
 const fn turned([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
@@ -68,8 +70,14 @@ const fn point(along: [f64; 2], around: [f64; 2]) -> (V, V) {
     (point, V::new(normal[0] as f32, normal[1] as f32, normal[2] as f32))
 }
 
-/// Ring by ring. Neighbours share corners to the bit, the last ring those of the first.
-const POINTS: [[(V, V); CORNERS]; RINGS] = {
+/// Points and normals of a tube, ring by ring.
+type Points<const CORNERS: usize, const RINGS: usize> = [[(V, V); CORNERS]; RINGS];
+
+/// Those for steps along and around.
+pub(crate) const fn points<const CORNERS: usize, const RINGS: usize>(
+    ring_step: [f64; 2],
+    corner_step: [f64; 2],
+) -> Points<CORNERS, RINGS> {
     let mut points = [[(V::ZERO, V::ZERO); CORNERS]; RINGS];
     let mut along = [1.0, 0.0];
     let mut ring = 0;
@@ -78,43 +86,54 @@ const POINTS: [[(V, V); CORNERS]; RINGS] = {
         let mut corner = 0;
         while corner < CORNERS {
             points[ring][corner] = point(along, around);
-            around = turned(around, EIGHTH);
+            around = turned(around, corner_step);
             corner += 1;
         }
-        along = turned(along, STEP);
+        along = turned(along, ring_step);
         ring += 1;
     }
     points
-};
+}
 
-/// The three corners of a triangle and the normals there.
-const fn corners(triangle: usize) -> [(V, V); 3] {
+/// The three corners of a triangle and the normals there. Neighbours share corners to the bit, the
+/// last ring those of the first.
+const fn corners<const CORNERS: usize, const RINGS: usize>(
+    points: &Points<CORNERS, RINGS>,
+    triangle: usize,
+) -> [(V, V); 3] {
     let (ring, corner) = (triangle / 2 / CORNERS, triangle / 2 % CORNERS);
     let (next, further) = ((ring + 1) % RINGS, (corner + 1) % CORNERS);
-    let (a, c) = (POINTS[ring][corner], POINTS[next][further]);
+    let (a, c) = (points[ring][corner], points[next][further]);
     if triangle.is_multiple_of(2) {
-        [a, POINTS[next][corner], c]
+        [a, points[next][corner], c]
     } else {
-        [a, c, POINTS[ring][further]]
+        [a, c, points[ring][further]]
     }
 }
 
-static TRIANGLES: [Triangle<f32>; COUNT] = {
+/// The triangles of a tube.
+pub(crate) const fn triangles<const CORNERS: usize, const RINGS: usize, const COUNT: usize>(
+    points: &Points<CORNERS, RINGS>,
+) -> [Triangle<f32>; COUNT] {
     let mut triangles = [Triangle::new(V::ZERO, V::ZERO, V::ZERO); COUNT];
     let mut i = 0;
     while i < COUNT {
-        let [(a, _), (b, _), (c, _)] = corners(i);
+        let [(a, _), (b, _), (c, _)] = corners(points, i);
         triangles[i] = Triangle::new(a, b, c);
         i += 1;
     }
     triangles
-};
+}
+
+const POINTS: Points<CORNERS, RINGS> = points(TURN_64, TURN_8);
+
+pub(crate) static TRIANGLES: [Triangle<f32>; COUNT] = triangles(&POINTS);
 
 static NORMALS: [[V; 3]; COUNT] = {
     let mut normals = [[V::ZERO; 3]; COUNT];
     let mut i = 0;
     while i < COUNT {
-        let [(_, a), (_, b), (_, c)] = corners(i);
+        let [(_, a), (_, b), (_, c)] = corners(&POINTS, i);
         normals[i] = [a, b, c];
         i += 1;
     }

@@ -11,6 +11,7 @@ pub mod clouds;
 mod crc;
 pub mod fixed;
 mod knot;
+pub mod knot_rays;
 mod lamps;
 mod lcg;
 mod marbles;
@@ -100,6 +101,8 @@ pub fn all(each: &mut impl Each) {
     each.subject::<clouds::TrianglesStampedGrid>();
     each.subject::<clouds::TrianglesOctree>();
     each.subject::<clouds::TrianglesBvh>();
+    each.subject::<knot_rays::Knot1024Bvh>();
+    each.subject::<knot_rays::Knot4096Bvh>();
     each.subject::<fixed::FixedCard>();
     each.subject::<fixed::FixedSpheresNaive>();
     each.subject::<fixed::FixedSpheresGrid>();

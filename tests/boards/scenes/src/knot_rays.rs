@@ -1,0 +1,62 @@
+//! Rays through knots of 1,024 and 4,096 triangles: the meshes of the published baselines (see the
+//! README of the boards).
+
+use crate::clouds::Inwards;
+use crate::knot::{self, TURN_16, TURN_128, points, triangles};
+use crate::queries::Shot;
+use crate::structure::Bvh;
+use crate::{Structure, Subject};
+use core::marker::PhantomData;
+use glam::Vec3;
+use kibiray::scene::{Scene, SceneError};
+use kibiray::shape::Triangle;
+
+/// The knot of [`Knot`](crate::Knot), queries only.
+#[derive(Clone, Copy, Debug)]
+pub struct Knot1024<K>(PhantomData<K>);
+
+/// The same knot of four times as many triangles, 144 KiB of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Knot4096<K>(PhantomData<K>);
+
+/// In the hierarchy that takes the fewest instructions a ray on a Cortex-M4F.
+pub type Knot1024Bvh = Knot1024<Bvh<103>>;
+/// The same.
+pub type Knot4096Bvh = Knot4096<Bvh<410>>;
+
+static FINE: [Triangle<f32>; 4096] = triangles(&points::<16, 128>(TURN_128, TURN_16));
+
+/// From a sphere of radius 6 to points of the box around the knots.
+fn inwards() -> Inwards {
+    Inwards::from(6.0, Vec3::new(3.4, 3.4, 1.4))
+}
+
+impl<K: Structure<f32>> Subject for Knot1024<K> {
+    const NAME: &'static str = "knot_1024";
+    type Number = f32;
+    type Structure = K;
+    type Shapes = &'static [Triangle<f32>];
+
+    fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
+        Scene::new(&knot::TRIANGLES[..])
+    }
+
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
+        inwards()
+    }
+}
+
+impl<K: Structure<f32>> Subject for Knot4096<K> {
+    const NAME: &'static str = "knot_4096";
+    type Number = f32;
+    type Structure = K;
+    type Shapes = &'static [Triangle<f32>];
+
+    fn scene() -> Result<Scene<'static, f32, Self::Shapes>, SceneError> {
+        Scene::new(&FINE[..])
+    }
+
+    fn rays() -> impl Iterator<Item = Shot<f32>> {
+        inwards()
+    }
+}
