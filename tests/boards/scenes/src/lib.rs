@@ -102,6 +102,8 @@ pub fn all(each: &mut impl Each) {
     each.subject::<clouds::TrianglesOctree>();
     each.subject::<clouds::TrianglesBvh>();
     each.subject::<knot_rays::Knot1024Bvh>();
+    each.subject::<knot_rays::Knot1024Grid>();
+    each.subject::<knot_rays::Knot4096Grid>();
     each.subject::<knot_rays::Knot4096Bvh>();
     each.subject::<fixed::FixedCard>();
     each.subject::<fixed::FixedSpheresNaive>();
