@@ -29,7 +29,7 @@ pub(crate) fn tools() -> Result<Tools, String> {
 pub(crate) struct Number(pub(crate) usize);
 
 /// Bytes of the module's memory, fixed when it is linked.
-const MEMORY: usize = 4 * 65_536;
+const MEMORY: usize = 8 * 65_536;
 
 #[derive(Deserialize)]
 struct Report {
