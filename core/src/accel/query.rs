@@ -119,6 +119,11 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     probe: &mut impl Probe,
     goal: G,
 ) -> (G, R) {
+    let shapes = scene.shapes();
+    let unbounded = if S::UNBOUNDED { shapes.bounded()..shapes.count() } else { 0..0 };
+    if FOURS && !A::HANDS_OVER_ALL && unbounded.is_empty() && Framing::passes_by(scene, ray) {
+        return (goal, interval.max);
+    }
     let (copied, framing, own);
     let (ray, interval, near) = if FOURS {
         let (ray, interval, near) = framed(scene, ray, interval);
@@ -139,9 +144,9 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
             (&own, interval, near)
         }
     };
-    let shapes = scene.shapes();
+    let per_ray = shapes.per_ray(ray);
     let mut search = Search {
-        line: Line { shapes, ray, per_ray: shapes.per_ray(ray) },
+        line: Line { shapes, ray, per_ray: &per_ray },
         min: interval.min,
         limit: interval.max.next_down(),
         mailbox,
@@ -156,11 +161,8 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     {
         search.test(id);
     }
-    if S::UNBOUNDED && !A::HANDS_OVER_ALL {
-        let unbounded = shapes.bounded()..shapes.count();
-        if !unbounded.is_empty() && !search.is_over() {
-            search.visit_range(unbounded);
-        }
+    if S::UNBOUNDED && !A::HANDS_OVER_ALL && !unbounded.is_empty() && !search.is_over() {
+        search.visit_range(unbounded);
     }
     if (near || A::HANDS_OVER_ALL) && !search.is_over() {
         search.mailbox.next_ray();
@@ -210,7 +212,7 @@ trait Goal<R: Real> {
 struct Line<'q, R: Real, S: Shapes<R>> {
     shapes: &'q S,
     ray: &'q Ray<R>,
-    per_ray: S::PerRay,
+    per_ray: &'q S::PerRay,
 }
 
 impl<R: Real, S: Shapes<R>> Line<'_, R, S> {
@@ -224,7 +226,7 @@ impl<R: Real, S: Shapes<R>> Line<'_, R, S> {
     fn nearest_of(&self, mut ids: Range<usize>, min: R, mut max: R) -> Option<(usize, R)> {
         let (mut nearest, mut behind) = (None, None);
         loop {
-            match self.shapes.nearest_of(ids.clone(), self.ray, &self.per_ray, min, max) {
+            match self.shapes.nearest_of(ids.clone(), self.ray, self.per_ray, min, max) {
                 Some((id, _)) if self.left(id) => {
                     behind = Some(id + 1..ids.end);
                     ids.end = id;
@@ -244,7 +246,7 @@ impl<R: Real, S: Shapes<R>> Line<'_, R, S> {
     /// Some that is hit of those that follow each other, but for the one that the ray left.
     fn any_of(&self, mut ids: Range<usize>, min: R, max: R) -> Option<usize> {
         loop {
-            match self.shapes.any_of(ids.clone(), self.ray, &self.per_ray, min, max) {
+            match self.shapes.any_of(ids.clone(), self.ray, self.per_ray, min, max) {
                 Some(id) if self.left(id) => ids.start = id + 1,
                 found => return found,
             }
@@ -268,7 +270,7 @@ impl Nearest {
 
 impl<R: Real> Goal<R> for Nearest {
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
-        match line.shapes.hit(id, line.ray, &line.per_ray, min, limit) {
+        match line.shapes.hit(id, line.ray, line.per_ray, min, limit) {
             Some(t) if !line.left(id) => self.take(id, t, limit),
             _ => limit,
         }
@@ -307,7 +309,7 @@ impl<R: Real> Goal<R> for Blocked {
     }
 
     fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
-        let blocks = line.shapes.occludes(id, line.ray, &line.per_ray, min, limit);
+        let blocks = line.shapes.occludes(id, line.ray, line.per_ray, min, limit);
         if blocks && !line.left(id) {
             self.id = Some(id);
         }

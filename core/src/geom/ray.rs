@@ -200,25 +200,25 @@ impl<R: Real> Slopes<R> {
     /// infinity, where the classic form breaks, cannot arise: an axis the ray does not move along
     /// is decided by its coordinate.
     pub fn clip(&self, lo: Vec3<R>, hi: Vec3<R>, min: R, max: R) -> Option<(R, R)> {
-        let (mut enter, mut leave) = (min, max);
-        for axis in Axis::ALL {
-            let (lo, hi) = (lo.along(axis), hi.along(axis));
-            let (near, far) = match self.sign(axis) {
-                0 => {
-                    let o = self.origin.along(axis);
-                    if o >= lo && o <= hi {
-                        continue;
-                    }
-                    return None;
-                }
-                1 => (lo, hi),
-                _ => (hi, lo),
-            };
-            enter = enter.max(self.crossing(axis, near));
-            leave = leave.min(self.crossing(axis, far));
-        }
+        let ([ox, oy, oz], [x, y, z]) = (self.origin.to_array(), self.inverse);
+        let ([ax, ay, az], [bx, by, bz]) = (lo.to_array(), hi.to_array());
+        let part = between(x, ax - ox, bx - ox, (min, max))?;
+        let part = between(y, ay - oy, by - oy, part)?;
+        let (enter, leave) = between(z, az - oz, bz - oz, part)?;
         (enter <= leave).then_some((enter, leave))
     }
+}
+
+/// The part of a ray between two walls across an axis, `lo` and `hi` away from its origin.
+#[inline(always)]
+fn between<R: Real>(inverse: R::Reciprocal, lo: R, hi: R, part: (R, R)) -> Option<(R, R)> {
+    let (near, far) = match inverse.sign() {
+        // Where it stays, it is inside or it is not.
+        0 => return (lo <= R::ZERO && hi >= R::ZERO).then_some(part),
+        1 => (lo, hi),
+        _ => (hi, lo),
+    };
+    Some((part.0.max(inverse.times(near)), part.1.min(inverse.times(far))))
 }
 
 #[cfg(test)]

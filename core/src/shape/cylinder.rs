@@ -62,8 +62,8 @@ impl<R: Real> Cylinder<R> {
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
         let half = self.height * R::HALF;
         let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
-        let slab = frame.slab(half)?;
         let wall = self.wall(&frame)?;
+        let slab = frame.slab(half)?;
         Some((frame, frame.ends(wall, slab, (self.capped, self.capped))))
     }
 
