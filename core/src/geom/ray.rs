@@ -200,17 +200,19 @@ impl<R: Real> Slopes<R> {
     /// infinity, where the classic form breaks, cannot arise: an axis the ray does not move along
     /// is decided by its coordinate.
     pub fn clip(&self, lo: Vec3<R>, hi: Vec3<R>, min: R, max: R) -> Option<(R, R)> {
-        let ([ox, oy, oz], [x, y, z]) = (self.origin.to_array(), self.inverse);
-        let ([ax, ay, az], [bx, by, bz]) = (lo.to_array(), hi.to_array());
-        let part = between(x, ax - ox, bx - ox, (min, max))?;
-        let part = between(y, ay - oy, by - oy, part)?;
-        let (enter, leave) = between(z, az - oz, bz - oz, part)?;
+        let (lo, hi) = (lo - self.origin, hi - self.origin);
+        let ([x, y, z], [ax, ay, az], [bx, by, bz]) = (self.inverse, lo.to_array(), hi.to_array());
+        let part = between(x, ax, bx, (min, max))?;
+        let part = between(y, ay, by, part)?;
+        let (enter, leave) = between(z, az, bz, part)?;
         (enter <= leave).then_some((enter, leave))
     }
 }
 
 /// The part of a ray between two walls across an axis, `lo` and `hi` away from its origin.
-#[inline(always)]
+// A call where memory for code is dear.
+#[cfg_attr(target_pointer_width = "32", inline(never))]
+#[cfg_attr(target_pointer_width = "64", inline(always))]
 fn between<R: Real>(inverse: R::Reciprocal, lo: R, hi: R, part: (R, R)) -> Option<(R, R)> {
     let (near, far) = match inverse.sign() {
         // Where it stays, it is inside or it is not.
