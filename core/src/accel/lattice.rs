@@ -41,28 +41,6 @@ impl<R: Real> Lattice<R> {
         slopes.clip(self.bounds.lo, self.bounds.hi, min, max)
     }
 
-    /// The parameter at which a ray enters, between `min` and `max`; from its tracks.
-    pub(crate) fn enter(&self, ray: &Ray<R>, tracks: &[Track<R>; 3], min: R, max: R) -> Option<R> {
-        let (mut enter, mut leave) = (min, max);
-        for ((track, n), axis) in tracks.iter().zip(self.count).zip(Axis::ALL) {
-            let (first, last) = (track.crossing(0), track.crossing(n));
-            let (near, far) = match track.sign {
-                0 => {
-                    let o = ray.origin().along(axis);
-                    if o >= self.bounds.lo.along(axis) && o <= self.bounds.hi.along(axis) {
-                        continue;
-                    }
-                    return None;
-                }
-                1 => (first, last),
-                _ => (last, first),
-            };
-            enter = enter.max(near);
-            leave = leave.min(far);
-        }
-        (enter <= leave).then_some(enter)
-    }
-
     /// The cells of a point, the nearest ones when it lies outside.
     pub(crate) fn cell_of(&self, p: Vec3<R>) -> [i32; 3] {
         let [nx, ny, nz] = self.count;
@@ -90,6 +68,33 @@ impl<R: Real> Lattice<R> {
         room.grown(self.pad)
     }
 
+    /// A ray's way along an axis, from where it enters the box to where it leaves it.
+    #[inline(always)]
+    pub(crate) fn way(&self, ray: &Ray<R>, axis: Axis) -> Way<R> {
+        let ([nx, ny, nz], [cx, cy, cz]) = (self.count, &self.cells);
+        let (count, cells) = match axis {
+            Axis::X => (nx, cx),
+            Axis::Y => (ny, cy),
+            Axis::Z => (nz, cz),
+        };
+        let (o, d) = (ray.origin().along(axis), ray.direction().along(axis));
+        let lo = self.bounds.lo.along(axis);
+        match R::Progress::of(d, lo - o, cells, count) {
+            Some(walls) if d > R::ZERO => {
+                Way { sign: 1, enter: walls.at(0), leave: walls.at(count), walls }
+            }
+            Some(walls) => {
+                let (enter, leave) = (walls.at(count), walls.at(0));
+                Way { sign: -1, walls: walls.along(-1), enter, leave }
+            }
+            None => {
+                let inside = o >= lo && o <= self.bounds.hi.along(axis);
+                let leave = if inside { R::INFINITY } else { -R::INFINITY };
+                Way { sign: 0, walls: R::Progress::never(), enter: -R::INFINITY, leave }
+            }
+        }
+    }
+
     /// A ray seen along each of the three axes.
     pub(crate) fn tracks(&self, ray: &Ray<R>, slopes: &Slopes<R>) -> [Track<R>; 3] {
         let ([nx, ny, nz], [cx, cy, cz]) = (self.count, &self.cells);
@@ -101,6 +106,18 @@ impl<R: Real> Lattice<R> {
             }
         })
     }
+}
+
+/// A ray's way along one axis of a lattice, seen as it goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way<R: Real> {
+    /// Whether cell numbers grow (1), shrink (-1) or stay (0).
+    pub(crate) sign: i32,
+    /// Where it is inside along this axis, all else left aside.
+    pub(crate) enter: R,
+    pub(crate) leave: R,
+    /// The parameters at which the ray meets walls, by their numbers times the sign: those grow.
+    pub(crate) walls: R::Progress,
 }
 
 /// A ray's way along one axis of a lattice.
@@ -122,11 +139,6 @@ impl<R: Real> Track<R> {
     /// coordinate, as rays start no farther away than four times that.
     pub(crate) fn crossing(&self, i: i32) -> R {
         self.walls.at(i)
-    }
-
-    /// The number of the wall through which the ray leaves a cell.
-    pub(crate) fn wall_behind(&self, cell: i32) -> i32 {
-        if self.sign > 0 { cell + 1 } else { cell }
     }
 
     /// The parameter at which the ray leaves the cells `first..first + count`.

@@ -127,6 +127,11 @@ impl<I: Id> Aside<I> {
         self.ids.iter().any(|aside| aside.get() == id)
     }
 
+    /// They.
+    pub(crate) fn ids(&self) -> &[I] {
+        &self.ids
+    }
+
     /// Has a ray tested against them.
     pub(crate) fn visit<R: Real, V: Visitor<R>>(&self, visitor: &mut V) {
         visit(&self.ids, visitor);

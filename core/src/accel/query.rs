@@ -69,9 +69,11 @@ pub trait Accel<R: Real> {
         probe: &mut impl Probe,
     ) -> Option<Hit<R>> {
         let as_asked = Framing::is_needless(scene, ray);
-        let goal = Nearest { id: None };
-        let (goal, local) = search(self, scene, ray, interval, mailbox, probe, goal);
-        let id = goal.id?;
+        let goal = Nearest { id: Nearest::NONE };
+        let (Nearest { id }, local) = search(self, scene, ray, interval, mailbox, probe, goal);
+        if id == Nearest::NONE {
+            return None;
+        }
         let t = if as_asked {
             local
         } else {
@@ -124,35 +126,10 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     if FOURS && !A::HANDS_OVER_ALL && unbounded.is_empty() && Framing::passes_by(scene, ray) {
         return (goal, interval.max);
     }
-    let (copied, framing, own);
-    let (ray, interval, near) = if FOURS {
-        let (ray, interval, near) = framed(scene, ray, interval);
-        copied = ray;
-        (&copied, interval, near)
-    } else {
-        // Where registers are few and so is memory for code, a copy is made only if need be.
-        let (ray, interval, near) = if Framing::is_needless(scene, ray) {
-            (ray, interval, true)
-        } else {
-            framing = Framing::of(scene, *ray, interval);
-            (&framing.ray, framing.interval, framing.near)
-        };
-        if ray.slack() == scene.slack() {
-            (ray, interval, near)
-        } else {
-            own = ray.with_slack(scene.slack());
-            (&own, interval, near)
-        }
-    };
+    let (ref ray, min, limit, near) = framed(scene, ray, interval);
     let per_ray = shapes.per_ray(ray);
-    let mut search = Search {
-        line: Line { shapes, ray, per_ray: &per_ray },
-        min: interval.min,
-        limit: interval.max.next_down(),
-        mailbox,
-        probe,
-        goal,
-    };
+    let mut search =
+        Search { line: Line { shapes, ray, per_ray: &per_ray }, min, limit, mailbox, probe, goal };
     if !A::HANDS_OVER_ALL
         && let Some(id) = search.goal.guess()
         && near
@@ -171,32 +148,41 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     (search.goal, search.limit)
 }
 
-/// The ray as it is traced, and whether it comes near the bounded shapes. A copy: that stays in
-/// registers, what a pointer leads to would not.
+/// The ray as it is traced, its interval with the greatest number that belongs to it, and whether it
+/// comes near the bounded shapes. A copy: that stays in registers, what a pointer leads to would not.
 #[inline(always)]
 fn framed<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     ray: &Ray<R>,
     interval: Interval<R>,
-) -> (Ray<R>, Interval<R>, bool) {
-    let (ray, interval, near) = if Framing::is_needless(scene, ray) {
-        (*ray, interval, true)
+) -> (Ray<R>, R, R, bool) {
+    let (ray, min, limit, near) = if Framing::is_needless(scene, ray) {
+        (*ray, interval.min, interval.max.next_down(), true)
     } else {
         let Framing { ray, interval, near, .. } = Framing::of(scene, *ray, interval);
-        (ray, interval, near)
+        (ray, interval.min, interval.max.next_down(), near)
     };
-    (ray.with_slack(scene.slack()), interval, near)
+    (ray.with_slack(scene.slack()), min, limit, near)
 }
 
 /// What a query looks for.
 trait Goal<R: Real> {
+    /// Whether a hit ends it.
+    const STOPS: bool;
+
     /// A shape to be tested first.
     fn guess(&self) -> Option<usize> {
         None
     }
 
-    /// Tests one shape between `min` and `limit`; gives the new limit.
-    fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R;
+    /// Tests one shape between `min` and `limit`; gives the new limit if it is hit.
+    fn test<S: Shapes<R>>(
+        &mut self,
+        line: &Line<'_, R, S>,
+        id: usize,
+        min: R,
+        limit: R,
+    ) -> Option<R>;
 
     /// Tests some that follow each other; gives the new limit and the number of tests.
     fn test_range<S: Shapes<R>>(
@@ -255,25 +241,34 @@ impl<R: Real, S: Shapes<R>> Line<'_, R, S> {
 }
 
 struct Nearest {
-    id: Option<usize>,
+    id: usize,
 }
 
 impl Nearest {
+    /// No shape; later than all of them.
+    const NONE: usize = usize::MAX;
+
     /// Takes a hit at `t <= limit`, unless it is a tie with an earlier shape.
     fn take<R: Real>(&mut self, id: usize, t: R, limit: R) -> R {
-        if !(t == limit && self.id.is_some_and(|earlier| earlier < id)) {
-            self.id = Some(id);
+        if !(t == limit && self.id < id) {
+            self.id = id;
         }
         t
     }
 }
 
 impl<R: Real> Goal<R> for Nearest {
-    fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
-        match line.shapes.hit(id, line.ray, line.per_ray, min, limit) {
-            Some(t) if !line.left(id) => self.take(id, t, limit),
-            _ => limit,
-        }
+    const STOPS: bool = false;
+
+    fn test<S: Shapes<R>>(
+        &mut self,
+        line: &Line<'_, R, S>,
+        id: usize,
+        min: R,
+        limit: R,
+    ) -> Option<R> {
+        let t = line.shapes.hit(id, line.ray, line.per_ray, min, limit)?;
+        (!line.left(id)).then(|| self.take(id, t, limit))
     }
 
     fn test_range<S: Shapes<R>>(
@@ -304,16 +299,24 @@ impl Blocked {
 }
 
 impl<R: Real> Goal<R> for Blocked {
+    const STOPS: bool = true;
+
     fn guess(&self) -> Option<usize> {
         self.guess
     }
 
-    fn test<S: Shapes<R>>(&mut self, line: &Line<'_, R, S>, id: usize, min: R, limit: R) -> R {
+    fn test<S: Shapes<R>>(
+        &mut self,
+        line: &Line<'_, R, S>,
+        id: usize,
+        min: R,
+        limit: R,
+    ) -> Option<R> {
         let blocks = line.shapes.occludes(id, line.ray, line.per_ray, min, limit);
-        if blocks && !line.left(id) {
+        (blocks && !line.left(id)).then(|| {
             self.id = Some(id);
-        }
-        self.limit(limit)
+            -R::INFINITY
+        })
     }
 
     fn test_range<S: Shapes<R>>(
@@ -346,9 +349,15 @@ impl<R: Real, S: Shapes<R>, M, P: Probe, G: Goal<R>> Search<'_, R, S, M, P, G> {
         !(self.limit > self.min)
     }
 
-    fn test(&mut self, id: usize) {
+    /// Tests a shape; whether nothing is left to look for.
+    #[inline(always)]
+    fn test(&mut self, id: usize) -> bool {
         self.probe.primitive_tests(1);
-        self.limit = self.goal.test(&self.line, id, self.min, self.limit);
+        let Some(limit) = self.goal.test(&self.line, id, self.min, self.limit) else {
+            return false;
+        };
+        self.limit = limit;
+        G::STOPS
     }
 }
 
@@ -379,8 +388,7 @@ impl<R: Real, S: Shapes<R>, M: Mailbox, P: Probe, G: Goal<R>> Visitor<R>
                 self.probe.mailbox_skip();
                 continue;
             }
-            self.test(id);
-            if self.is_over() {
+            if self.test(id) {
                 return;
             }
         }

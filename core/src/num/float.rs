@@ -184,12 +184,20 @@ macro_rules! float {
         impl Progress<$f> for FloatProgress<$f> {
             type Reciprocal = $f;
             type Cells = FloatCells<$f>;
+            /// To convert a whole number takes longer than to add 1.
+            type Count = $f;
 
             fn new(inverse: $f, from: $f, cells: &FloatCells<$f>, count: i32) -> Option<Self> {
-                let (start, width) = (from * inverse, cells.width * inverse);
-                let end = start + width * count as $f;
-                // Where even this overflows, the way along the axis is nothing.
-                (inverse.sign() != 0 && end.is_finite()).then_some(Self { start, width })
+                let walls = Self { start: from * inverse, width: cells.width * inverse };
+                (inverse.sign() != 0 && walls.at(count).is_finite()).then_some(walls)
+            }
+            #[inline(always)]
+            fn of(direction: $f, from: $f, cells: &FloatCells<$f>, count: i32) -> Option<Self> {
+                let inverse = 1.0 / direction;
+                let walls = Self { start: from * inverse, width: cells.width * inverse };
+                // Where the last overflows, the way along the axis is nothing: an infinite reciprocal
+                // makes it so.
+                walls.at(count).is_finite().then_some(walls)
             }
             fn steep(direction: $f, from: $f, cells: &FloatCells<$f>) -> Self {
                 // A ray less inclined than that does not move along the axis: across the scene it
@@ -212,6 +220,26 @@ macro_rules! float {
             #[inline(always)]
             fn at(&self, i: i32) -> $f {
                 self.start + self.width * i as $f
+            }
+            #[inline(always)]
+            fn along(&self, sign: i32) -> Self {
+                Self { start: self.start, width: self.width * sign as $f }
+            }
+            #[inline(always)]
+            fn count(i: i32) -> $f {
+                i as $f
+            }
+            #[inline(always)]
+            fn number(count: $f) -> i32 {
+                count as i32
+            }
+            #[inline(always)]
+            fn next(count: $f) -> $f {
+                count + 1.0
+            }
+            #[inline(always)]
+            fn at_count(&self, count: $f) -> $f {
+                self.start + self.width * count
             }
             #[inline(always)]
             fn rebased(&self, origin: i32, shift: u8) -> Self {

@@ -32,9 +32,13 @@ pub trait Progress<R: Real>: Copy + Debug + Default {
     type Reciprocal;
     /// As in [`Real::Cells`].
     type Cells;
+    /// The number of a wall as it is quickest to count and to compute with.
+    type Count: Copy + Debug;
 
     /// `count` walls, of which the first is `from` away; `None` where the ray does not move.
     fn new(reciprocal: Self::Reciprocal, from: R, cells: &Self::Cells, count: i32) -> Option<Self>;
+    /// The same from the direction itself.
+    fn of(direction: R, from: R, cells: &Self::Cells, count: i32) -> Option<Self>;
     /// The same for any direction: where a ray hardly moves it meets each wall far away.
     fn steep(direction: R, from: R, cells: &Self::Cells) -> Self;
     /// Every wall is infinitely far away.
@@ -43,6 +47,17 @@ pub trait Progress<R: Real>: Copy + Debug + Default {
     fn standing(cell: i32) -> Self;
     /// The parameter of wall number `i`.
     fn at(&self, i: i32) -> R;
+    /// The same walls with their numbers times `sign`: for a ray that moves towards smaller numbers,
+    /// -1 lets them grow; 0 for one that moves along none.
+    fn along(&self, sign: i32) -> Self;
+    /// A number to count from.
+    fn count(i: i32) -> Self::Count;
+    /// What has been counted to.
+    fn number(count: Self::Count) -> i32;
+    /// The next greater number.
+    fn next(count: Self::Count) -> Self::Count;
+    /// [`Progress::at`] of what has been counted to.
+    fn at_count(&self, count: Self::Count) -> R;
     /// Numbers from wall `origin`, every 2^`shift`-th wall.
     fn rebased(&self, origin: i32, shift: u8) -> Self;
 }

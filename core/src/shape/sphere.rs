@@ -82,24 +82,25 @@ impl<R: Real> Sphere<R> {
     #[inline(always)]
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
         let (middle, half) = self.middle(ray, length)?;
-        Some(self.ends(ray, length, middle, half))
-    }
-
-    /// The ends of the chord. Apart from it, as most rays pass by most spheres.
-    #[inline(never)]
-    fn ends(&self, ray: &Ray<R>, length: &Length<R>, middle: R, half: R) -> (R, R) {
         if R::EXACT {
-            return (middle - half, middle + half);
+            return Some((middle - half, middle + half));
         }
         let f = self.center - ray.origin();
-        let outer = if middle >= R::ZERO { middle + half } else { middle - half };
         // The product of both solutions is (|f|² - r²) / |d|².
-        let rr = self.radius.times(self.radius);
-        let inner = R::narrow(f.dot(f) - rr) * length.inverse_squared / outer;
-        // It is the smaller one, whatever rounding says of a ray that touches where it starts.
-        let inner = inner.clamp(-outer.abs(), outer.abs());
-        if inner <= outer { (inner, outer) } else { (outer, inner) }
+        let power = R::narrow(f.dot(f) - self.radius.times(self.radius));
+        Some(ends(middle, half, power * length.inverse_squared))
     }
+}
+
+/// The ends of a chord from its middle, half its length and the product of both. Apart from it, as
+/// most rays pass by most spheres.
+#[inline(never)]
+fn ends<R: Real>(middle: R, half: R, product: R) -> (R, R) {
+    let outer = if middle >= R::ZERO { middle + half } else { middle - half };
+    let inner = product / outer;
+    // It is the smaller one, whatever rounding says of a ray that touches where it starts.
+    let inner = inner.clamp(-outer.abs(), outer.abs());
+    if inner <= outer { (inner, outer) } else { (outer, inner) }
 }
 
 impl<R: Real> Shape<R> for Sphere<R> {

@@ -42,45 +42,35 @@ impl<R: Real> Triangle<R> {
         ((b - a) * part).across((c - a) * part).is_zero()
     }
 
-    /// Whether all corners lie on one side of a ray: it passes outside. Where weights are rounded to
-    /// 0 on either side of an edge, this tells one from the other.
+    /// The corners' coordinates along an axis.
     #[inline(always)]
-    fn is_beside(&self, shear: &Shear<R>) -> bool {
-        let beside = |[x, y, z]: [R; 3]| {
-            let zero = R::ZERO;
-            (x > zero && y > zero && z > zero) || (x < zero && y < zero && z < zero)
-        };
-        let corners = self.corners.each_ref();
-        beside(corners.map(|c| shear.second(c))) || beside(corners.map(|c| shear.first(c)))
+    fn along(&self, axis: Axis) -> [R; 3] {
+        // Counted through: one address, and three loads at constant distances from it.
+        let all: &[R; 9] = bytemuck::must_cast_ref(&self.corners);
+        let corner = |n: usize| all.get(axis.index() + 3 * n).copied().unwrap_or_default();
+        [corner(0), corner(1), corner(2)]
     }
 
-    /// The test by the weights of the corners.
+    /// How far the corners lie along a ray, not yet scaled.
     #[inline(always)]
-    fn meet(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        let [a, b, c] = self.corners.each_ref().map(|corner| shear.apply(corner));
-        let weights @ [u, v, w] = weights([a, b, c]);
-        let zero = R::Wide::default();
-        // Signs differ: outside. Two of them often tell.
-        if !FOURS && ((u < zero && v > zero) || (u > zero && v < zero)) {
-            return None;
-        }
-        let least = |a: R::Wide, b: R::Wide| if a < b { a } else { b };
-        let greatest = |a: R::Wide, b: R::Wide| if a > b { a } else { b };
-        // A number that is none passes here, and is refused as `t`.
-        let some_negative = least(least(u, v), w) < zero;
-        let some_positive = greatest(greatest(u, v), w) > zero;
-        // Signs differ: outside. All zero: edge-on.
-        if some_negative == some_positive || (FOURS && !R::EXACT && self.is_beside(shear)) {
-            return None;
-        }
-        let t = self.depth(ray, shear, weights, [a.2, b.2, c.2])?;
-        (t > min && t <= max).then_some(t)
+    fn depths(&self, shear: &Shear<R>) -> [R; 3] {
+        self.along(shear.axes[2]).map(|z| z.way(shear.origin[2]))
     }
 
-    /// The same, where it is rarely needed.
-    #[inline(never)]
-    fn meet_apart(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        self.meet(ray, shear, min, max)
+    /// The first of their coordinates across it.
+    #[inline(always)]
+    fn first(&self, shear: &Shear<R>, [a, b, c]: [R; 3]) -> [R; 3] {
+        let sheared = |x: R, z: R| R::sheared(x.way(shear.origin[0]), shear.slope[0], z);
+        let [ax, bx, cx] = self.along(shear.axes[0]);
+        [sheared(ax, a), sheared(bx, b), sheared(cx, c)]
+    }
+
+    /// The second of them.
+    #[inline(always)]
+    fn second(&self, shear: &Shear<R>, [a, b, c]: [R; 3]) -> [R; 3] {
+        let sheared = |y: R, z: R| R::sheared(y.way(shear.origin[1]), shear.slope[1], z);
+        let [ay, by, cy] = self.along(shear.axes[1]);
+        [sheared(ay, a), sheared(by, b), sheared(cy, c)]
     }
 
     /// Where a ray that passes inside meets it. Apart from the test, which then stays small enough to
@@ -94,10 +84,13 @@ impl<R: Real> Triangle<R> {
         &self,
         ray: &Ray<R>,
         shear: &Shear<R>,
-        weights: [R::Wide; 3],
-        depths: [R; 3],
+        u: R::Wide,
+        v: R::Wide,
+        w: R::Wide,
     ) -> Option<R> {
-        let t = R::mean(weights, depths);
+        let weights = [u, v, w];
+        let scaled = |z| if R::EXACT { z } else { shear.scale * z };
+        let t = R::mean(weights, self.depths(shear).map(scaled));
         let [a, b, c] = self.corners;
         if R::EXACT {
             // So are the weights: the mean lies on the ray, unless `t` is out of range.
@@ -119,8 +112,9 @@ impl<R: Real> Triangle<R> {
     /// For a ray that passes outside, of a place on the outline; the same for all corners when the
     /// ray sees the triangle edge-on or from too far away to tell.
     pub fn barycentric(&self, ray: &Ray<R>) -> [R; 3] {
-        let shear = Shear::of(ray);
-        let weights = weights(self.corners.each_ref().map(|corner| shear.apply(corner)));
+        let shear = &Shear::of(ray);
+        let depths = self.depths(shear);
+        let weights = weights(self.first(shear, depths), self.second(shear, depths));
         let zero = R::Wide::default();
         let sum = |[u, v, w]: [R::Wide; 3]| u + v + w;
         // What is not a number is neither and counts as 0.
@@ -160,12 +154,10 @@ impl<R: Real> Shear<R> {
         Self { axes, origin: axes.map(|axis| ray.origin().along(axis)), slope, scale }
     }
 
-    /// Where a point lies across and along the ray; along it, where products are dear, not yet scaled.
+    /// Where a point lies across the ray.
     #[inline]
-    pub(crate) fn apply(&self, point: &Vec3<R>) -> (R, R, R) {
-        let z = point.pick(self.axes[2]).way(self.origin[2]);
-        let along = if R::EXACT { z } else { self.scale * z };
-        (self.first(point), self.second(point), along)
+    pub(crate) fn apply(&self, point: &Vec3<R>) -> (R, R) {
+        (self.first(point), self.second(point))
     }
 
     /// The first of these coordinates alone.
@@ -184,14 +176,42 @@ impl<R: Real> Shear<R> {
 }
 
 /// Twice the signed area of the triangle from the origin to two sheared points.
-pub(crate) fn edge<R: Real>(p: (R, R, R), q: (R, R, R)) -> R::Wide {
+pub(crate) fn edge<R: Real>(p: (R, R), q: (R, R)) -> R::Wide {
     p.0.times(q.1) - p.1.times(q.0)
 }
 
 /// The weights of the corners, sheared, where the line of the ray meets the plane; of one sign if
 /// that is inside.
-fn weights<R: Real>([a, b, c]: [(R, R, R); 3]) -> [R::Wide; 3] {
+#[inline(always)]
+fn weights<R: Real>([ax, bx, cx]: [R; 3], [ay, by, cy]: [R; 3]) -> [R::Wide; 3] {
+    let (a, b, c) = ((ax, ay), (bx, by), (cx, cy));
     [edge::<R>(c, b), edge::<R>(a, c), edge::<R>(b, a)]
+}
+
+/// Whether weights have one sign: the line of the ray passes inside, and does not see the triangle
+/// edge-on.
+#[inline(always)]
+fn are_inside<R: Real>([u, v, w]: [R::Wide; 3]) -> bool {
+    let zero = R::Wide::default();
+    // Signs differ: outside. Two of them often tell.
+    if !FOURS && ((u < zero && v > zero) || (u > zero && v < zero)) {
+        return false;
+    }
+    let least = |a: R::Wide, b: R::Wide| if a < b { a } else { b };
+    let greatest = |a: R::Wide, b: R::Wide| if a > b { a } else { b };
+    // A number that is none passes here, and is refused as `t`.
+    let some_negative = least(least(u, v), w) < zero;
+    let some_positive = greatest(greatest(u, v), w) > zero;
+    // Both: outside. Neither: edge-on.
+    some_negative != some_positive
+}
+
+/// Whether corners, sheared, lie on one side of a ray: it passes outside. Where weights are rounded
+/// to 0 on either side of an edge, this tells one from the other.
+#[inline(always)]
+fn are_beside<R: Real>([x, y, z]: [R; 3]) -> bool {
+    let zero = R::ZERO;
+    (x > zero && y > zero && z > zero) || (x < zero && y < zero && z < zero)
 }
 
 impl<R: Real> Shape<R> for Triangle<R> {
@@ -229,11 +249,27 @@ impl<R: Real> Shape<R> for Triangle<R> {
 
     #[inline(always)]
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        if FOURS {
-            return self.meet(ray, shear, min, max);
+        let depths = self.depths(shear);
+        // Where it pays to leave early: three of four are told outside by less than the weights take.
+        let second = self.second(shear, depths);
+        if !FOURS && are_beside(second) {
+            return None;
         }
-        // Three of four are told outside by less than the weights take.
-        if self.is_beside(shear) { None } else { self.meet_apart(ray, shear, min, max) }
+        let first = self.first(shear, depths);
+        if !FOURS && are_beside(first) {
+            return None;
+        }
+        let [u, v, w] = weights(first, second);
+        if !are_inside::<R>([u, v, w]) {
+            return None;
+        }
+        if FOURS && !R::EXACT && (are_beside(second) || are_beside(first)) {
+            return None;
+        }
+        // Copies: the others stay in registers, as no pointer leads to them.
+        let (ray, shear) = (*ray, *shear);
+        let t = self.depth(&ray, &shear, u, v, w)?;
+        (t > min && t <= max).then_some(t)
     }
 
     fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {

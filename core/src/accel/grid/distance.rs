@@ -31,13 +31,22 @@ pub(super) enum Slot {
 
 /// What a slot and the next one say.
 pub(super) fn slot<O: Id>(slots: &[O], cell: usize) -> Slot {
-    let at = |cell: usize| slots.get(cell).map_or(O::MAX, |slot| slot.get());
-    let from = at(cell);
-    if from > most_offset::<O>() {
-        return Slot::Empty(O::MAX - from);
+    slots.split_first().map_or(Slot::Empty(1), |(_, ends)| between(slots, ends, cell))
+}
+
+/// The same, for the slots and those but the first.
+#[inline(always)]
+pub(super) fn between<O: Id>(slots: &[O], ends: &[O], cell: usize) -> Slot {
+    let (Some(to), Some(from)) = (ends.get(cell), slots.get(cell)) else { return Slot::Empty(1) };
+    let (from, to) = (from.get(), to.get());
+    // Most often, so asked first.
+    if from < to && to <= most_offset::<O>() {
+        Slot::List(from, to)
+    } else if from > most_offset::<O>() {
+        Slot::Empty(O::MAX - from)
+    } else {
+        Slot::Empty(1)
     }
-    let to = at(cell + 1);
-    if from < to && to <= most_offset::<O>() { Slot::List(from, to) } else { Slot::Empty(1) }
 }
 
 /// The distance of a cell, 0 if it is full.

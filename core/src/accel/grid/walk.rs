@@ -1,137 +1,168 @@
 //! The way of a ray through a grid.
 
-use super::distance::{Slot, slot};
+use super::distance::{Slot, between};
 use super::{Grid, index};
-use crate::accel::lattice::Track;
-use crate::accel::{Accel, Id, Visitor, listing};
-use crate::geom::{Ray, Slopes};
-use crate::num::Real;
+use crate::accel::lattice::Way;
+use crate::accel::{Accel, Id, Visitor};
+use crate::geom::Ray;
+use crate::num::{Axis, Progress, Real};
 use crate::probe::Probe;
 
 /// The walk along one axis.
 struct Along<R: Real> {
-    track: Track<R>,
+    sign: i32,
+    /// Numbered in the order in which the ray meets them.
+    walls: R::Progress,
     /// The number of the next wall.
-    wall: i32,
-    /// How many cells there are behind it.
-    left: i32,
-    /// What a step adds to the number of the cell.
-    stride: isize,
+    wall: <R::Progress as Progress<R>>::Count,
     /// Parameter of the next wall.
     next: R,
+    /// What a step adds to the number of the cell.
+    stride: isize,
 }
 
 impl<R: Real> Along<R> {
-    fn new(track: Track<R>, cell: i32, count: i32, stride: isize) -> Self {
-        let wall = track.wall_behind(cell);
-        let left = match track.sign {
-            0 => 0,
-            1 => count - 1 - cell,
-            _ => cell,
-        };
-        let stride = stride * track.sign as isize;
-        Self { track, wall, left, stride, next: track.crossing(wall) }
+    #[inline(always)]
+    fn new(Way { sign, walls, .. }: Way<R>, cell: i32, stride: isize) -> Self {
+        let wall = R::Progress::count(cell * sign + sign.max(0));
+        Self { sign, walls, wall, next: walls.at_count(wall), stride: stride * sign as isize }
     }
 
-    /// Moves on by so many cells and says how far that is in the order of cells; `None` when that
-    /// leaves the grid.
+    /// Moves on by a cell; says how far that is in the order of cells.
     #[inline(always)]
-    fn leap(&mut self, cells: i32) -> Option<isize> {
-        self.left -= cells;
-        if self.left < 0 {
-            return None;
+    fn step(&mut self) -> isize {
+        self.wall = R::Progress::next(self.wall);
+        self.next = self.walls.at_count(self.wall);
+        self.stride
+    }
+
+    /// Moves on by so many cells; says how far that is in the order of cells.
+    fn leap(&mut self, cells: i32) -> isize {
+        self.wall = R::Progress::count(R::Progress::number(self.wall) + cells);
+        self.next = self.walls.at_count(self.wall);
+        self.stride * cells as isize
+    }
+
+    /// How many cells there are behind the next wall, of so many in a row.
+    fn left(&self, count: i32) -> i32 {
+        let wall = R::Progress::number(self.wall);
+        match self.sign {
+            0 => 0,
+            1 => count - wall,
+            _ => -wall,
         }
-        self.wall += self.track.sign * cells;
-        self.next = self.track.crossing(self.wall);
-        Some(self.stride * cells as isize)
     }
 
     /// The parameter at which the ray has moved on by so many cells, or leaves the grid.
-    fn after(&self, cells: i32) -> R {
-        self.track.crossing(self.wall + self.track.sign * (cells - 1).min(self.left))
+    fn after(&self, cells: i32, count: i32) -> R {
+        self.walls.at(R::Progress::number(self.wall) + (cells - 1).min(self.left(count)))
     }
 
     /// Moves on to where single steps would be, once all walls before `t` have been passed, and
     /// those at `t` if this axis comes first; says how far that is in the order of cells. `near` is
     /// about the right cell.
-    fn follow(&mut self, t: R, first: bool, near: i32) -> isize {
-        if self.track.sign == 0 {
+    fn follow(&mut self, t: R, first: bool, near: i32, count: i32) -> isize {
+        if self.sign == 0 {
             return 0;
         }
+        let from = R::Progress::number(self.wall);
+        let near = if self.sign > 0 { near + 1 } else { -near };
         let passed = |wall: R| wall < t || (first && wall == t);
         // As a number of steps from here; steps never go back.
-        let mut steps = ((self.track.wall_behind(near) - self.wall) * self.track.sign).max(0);
-        for _ in 0..=self.left {
-            let wall = self.wall + self.track.sign * steps;
-            if steps > 0 && !passed(self.track.crossing(wall - self.track.sign)) {
+        let mut steps = (near - from).max(0);
+        for _ in 0..=self.left(count) {
+            if steps > 0 && !passed(self.walls.at(from + steps - 1)) {
                 steps -= 1;
-            } else if passed(self.track.crossing(wall)) {
+            } else if passed(self.walls.at(from + steps)) {
                 steps += 1;
             } else {
                 break;
             }
         }
-        self.left -= steps;
-        self.wall += self.track.sign * steps;
-        self.next = self.track.crossing(self.wall);
-        self.stride * steps as isize
+        self.leap(steps)
     }
 }
 
 impl<R: Real, I: Id, O: Id> Accel<R> for Grid<'_, R, I, O> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
-        self.aside.visit(visitor);
-        let tracks = self.lattice.tracks(ray, &Slopes::of(ray));
-        let start = self.lattice.enter(ray, &tracks, visitor.start(), visitor.limit());
-        let Some(enter) = start else { return };
-        let ([cx, cy, cz], count) = (self.lattice.cell_of(ray.at(enter)), self.lattice.count());
-        let ([nx, ny, nz], [tx, ty, tz]) = (count, tracks);
+        let [x, y, z] = Axis::ALL.map(|axis| self.lattice.way(ray, axis));
+        let enter = visitor.start().max(x.enter).max(y.enter).max(z.enter);
+        let mut limit = visitor.limit().min(x.leave).min(y.leave).min(z.leave);
+        let (count @ [nx, ny, nz], [cx, cy, cz]) =
+            (self.lattice.count(), self.lattice.cell_of(ray.at(enter)));
         let mut cell = index(count, cx, cy, cz);
-        let mut x = Along::new(tx, cx, nx, 1);
-        let mut y = Along::new(ty, cy, ny, nx as isize);
-        let mut z = Along::new(tz, cz, nz, nx as isize * ny as isize);
+        let mut x = Along::new(x, cx, 1);
+        let mut y = Along::new(y, cy, nx as isize);
+        let mut z = Along::new(z, cz, nx as isize * ny as isize);
+        let (_, ends) = self.slots.split_first().unwrap_or((&O::new(0), &[]));
+        // The shapes kept aside come as the list of a cell before the first one: so there is one
+        // place where shapes are tested, and that can be part of the loop.
+        let (mut list, mut reach) = (self.aside.ids(), 0);
         // Every step is at least one cell further along one axis, and none ever turns back.
-        for _ in 0..nx + ny + nz {
-            let found = slot(self.slots, cell);
-            visitor.probe().step();
-            visitor.probe().leaf(matches!(found, Slot::Empty(_)));
-            let reach = match found {
-                Slot::List(from, to) => {
-                    listing::visit(self.references.get(from..to).unwrap_or_default(), visitor);
-                    1
-                }
-                Slot::Empty(distance) => distance as i32,
-            };
-            let limit = visitor.limit();
-            // Of walls at the same parameter that along x comes first, then that along y.
-            let stride = if reach == 1 {
-                // Three branches, so that nothing has to be looked up by axis.
-                if x.next <= y.next && x.next <= z.next {
-                    if limit <= x.next { None } else { x.leap(1) }
-                } else if y.next <= z.next {
-                    if limit <= y.next { None } else { y.leap(1) }
-                } else if limit <= z.next {
-                    None
-                } else {
-                    z.leap(1)
-                }
-            } else {
-                let (ax, ay, az) = (x.after(reach), y.after(reach), z.after(reach));
-                let t = ax.min(ay).min(az);
-                if limit <= t {
+        let mut steps = nx + ny + nz + 1;
+        loop {
+            visitor.visit(list.iter().map(|id| id.get()));
+            limit = limit.min(visitor.limit());
+            // On to the next cell that lists something.
+            list = loop {
+                steps -= 1;
+                if steps < 0 {
                     return;
                 }
-                let [px, py, pz] = self.lattice.cell_of(ray.at(t));
-                if ax <= ay && ax <= az {
-                    x.leap(reach).map(|s| s + y.follow(t, false, py) + z.follow(t, false, pz))
-                } else if ay <= az {
-                    y.leap(reach).map(|s| s + x.follow(t, true, px) + z.follow(t, false, pz))
+                // The ray leaves the grid where it comes to the limit. Of walls at the same
+                // parameter that along x comes first, then that along y.
+                let stride = if reach == 1 {
+                    // Three branches, so that nothing has to be looked up by axis.
+                    if x.next <= y.next && x.next <= z.next {
+                        if limit <= x.next {
+                            return;
+                        }
+                        x.step()
+                    } else if y.next <= z.next {
+                        if limit <= y.next {
+                            return;
+                        }
+                        y.step()
+                    } else {
+                        if limit <= z.next {
+                            return;
+                        }
+                        z.step()
+                    }
+                } else if reach == 0 {
+                    if limit < enter {
+                        return;
+                    }
+                    0
                 } else {
-                    z.leap(reach).map(|s| s + x.follow(t, true, px) + y.follow(t, true, py))
+                    let (ax, ay, az) = (x.after(reach, nx), y.after(reach, ny), z.after(reach, nz));
+                    let t = ax.min(ay).min(az);
+                    if limit <= t {
+                        return;
+                    }
+                    let [px, py, pz] = self.lattice.cell_of(ray.at(t));
+                    if ax <= ay && ax <= az {
+                        x.leap(reach) + y.follow(t, false, py, ny) + z.follow(t, false, pz, nz)
+                    } else if ay <= az {
+                        y.leap(reach) + x.follow(t, true, px, nx) + z.follow(t, false, pz, nz)
+                    } else {
+                        z.leap(reach) + x.follow(t, true, px, nx) + y.follow(t, true, py, ny)
+                    }
+                };
+                cell = cell.wrapping_add_signed(stride);
+                let found = between(self.slots, ends, cell);
+                visitor.probe().step();
+                visitor.probe().leaf(matches!(found, Slot::Empty(_)));
+                match found {
+                    Slot::List(from, to) => {
+                        reach = 1;
+                        if let Some(list) = self.references.get(from..to) {
+                            break list;
+                        }
+                    }
+                    Slot::Empty(distance) => reach = distance as i32,
                 }
             };
-            let Some(stride) = stride else { return };
-            cell = cell.wrapping_add_signed(stride);
         }
     }
 }

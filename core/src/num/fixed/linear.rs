@@ -136,9 +136,14 @@ impl Progress {
 impl num::Progress<Fixed> for Progress {
     type Reciprocal = Reciprocal;
     type Cells = Cells;
+    type Count = i32;
 
     fn new(reciprocal: Reciprocal, from: Fixed, cells: &Cells, _count: i32) -> Option<Self> {
         (reciprocal.mantissa != 0).then(|| Self::with(reciprocal, from, cells))
+    }
+
+    fn of(direction: Fixed, from: Fixed, cells: &Cells, count: i32) -> Option<Self> {
+        Self::new(Reciprocal::of(direction), from, cells, count)
     }
 
     fn steep(direction: Fixed, from: Fixed, cells: &Cells) -> Self {
@@ -158,6 +163,30 @@ impl num::Progress<Fixed> for Progress {
     #[inline]
     fn at(&self, i: i32) -> Fixed {
         Fixed::from_bits(shifted(self.start + self.width * i64::from(i), self.shift))
+    }
+
+    fn along(&self, sign: i32) -> Self {
+        Self { width: self.width * i64::from(sign), ..*self }
+    }
+
+    #[inline(always)]
+    fn count(i: i32) -> i32 {
+        i
+    }
+
+    #[inline(always)]
+    fn number(count: i32) -> i32 {
+        count
+    }
+
+    #[inline(always)]
+    fn next(count: i32) -> i32 {
+        count + 1
+    }
+
+    #[inline(always)]
+    fn at_count(&self, count: i32) -> Fixed {
+        self.at(count)
     }
 
     fn rebased(&self, origin: i32, shift: u8) -> Self {

@@ -34,8 +34,9 @@ pub type SpheresTree = Spheres<Tree>;
 pub type TrianglesNaive = Triangles<Naive>;
 /// Triangles in the best grid, as for spheres.
 pub type TrianglesGrid = Triangles<Grid<10, 10, 10>>;
-/// Triangles in the best grid with stamps; for spheres they take more than they save.
-pub type TrianglesStampedGrid = Triangles<StampedGrid<10, 10, 10>>;
+/// Triangles in a grid with stamps and exact lists, of fewer than 10 KB; for spheres stamps take more
+/// than they save.
+pub type TrianglesStampedGrid = Triangles<StampedGrid<14, 14, 14, true>>;
 /// Triangles in the best octree.
 pub type TrianglesOctree = Triangles<Octree<4, 3>>;
 /// Triangles in the best hierarchy.

@@ -24,10 +24,10 @@ pub type Knot1024Bvh = Knot1024<Bvh<103>>;
 /// The same: 36 KiB.
 pub type Knot4096Bvh = Knot4096<Bvh<410>>;
 
-/// In a grid with stamps, as fine as 12 KiB allow.
-pub type Knot1024Grid = Knot1024<StampedGrid<12, 12, 5>>;
+/// In a grid with stamps and exact lists, as fine as 12 KiB allow.
+pub type Knot1024Grid = Knot1024<StampedGrid<14, 14, 6, true>>;
 /// As fine as 48 KiB allow.
-pub type Knot4096Grid = Knot4096<StampedGrid<20, 20, 8>>;
+pub type Knot4096Grid = Knot4096<StampedGrid<22, 22, 13, true>>;
 
 static FINE: [Triangle<f32>; 4096] = triangles(&points::<16, 128>(TURN_128, TURN_16));
 

@@ -1,7 +1,7 @@
 //! Structures with their parameters, as types: what a subject names, and nothing else, is linked.
 
 use kibiray::accel::octree::{self, StoppedBy};
-use kibiray::accel::{self, Accel, BuildError, Mailbox, mailbox, tree};
+use kibiray::accel::{self, Accel, BuildError, Mailbox, Overlap, grid, mailbox, tree};
 use kibiray::geom::Aabb;
 use kibiray::memory::Arena;
 use kibiray::num::Real;
@@ -79,11 +79,14 @@ impl<R: Real, const X: u32, const Y: u32, const Z: u32> Structure<R> for Grid<X,
     }
 }
 
-/// The same with a stamp for every shape: none is tested twice.
+/// The same with a stamp for every shape: none is tested twice. Cells list shapes by their boxes or,
+/// for more work while it is built, exactly.
 #[derive(Clone, Copy, Debug)]
-pub struct StampedGrid<const X: u32, const Y: u32, const Z: u32>;
+pub struct StampedGrid<const X: u32, const Y: u32, const Z: u32, const EXACT: bool = false>;
 
-impl<R: Real, const X: u32, const Y: u32, const Z: u32> Structure<R> for StampedGrid<X, Y, Z> {
+impl<R: Real, const X: u32, const Y: u32, const Z: u32, const EXACT: bool> Structure<R>
+    for StampedGrid<X, Y, Z, EXACT>
+{
     const NAME: &'static str = "stamped-grid";
     type Built<'m> = accel::Grid<'m, R, u16, u16>;
     type Mailbox<'m> = mailbox::Stamps<'m>;
@@ -92,7 +95,13 @@ impl<R: Real, const X: u32, const Y: u32, const Z: u32> Structure<R> for Stamped
         scene: &Scene<'_, R, S>,
         arena: &mut Arena<'m>,
     ) -> Result<Self::Built<'m>, BuildError> {
-        accel::Grid::build(scene, [X, Y, Z], arena)
+        if EXACT {
+            let overlap = Overlap::Exact;
+            let settings = grid::Settings { overlap, ..grid::Settings::new([X, Y, Z]) };
+            accel::Grid::build(scene, settings, arena)
+        } else {
+            accel::Grid::build(scene, [X, Y, Z], arena)
+        }
     }
 
     fn mailbox<'m>(shapes: usize, arena: &mut Arena<'m>) -> Result<Self::Mailbox<'m>, BuildError> {
