@@ -12,6 +12,16 @@ pub trait Id: Pod + core::fmt::Debug {
     fn get(self) -> usize;
 }
 
+impl Id for u8 {
+    const MAX: usize = Self::MAX as usize;
+    fn new(n: usize) -> Self {
+        n as Self
+    }
+    fn get(self) -> usize {
+        self as usize
+    }
+}
+
 impl Id for u16 {
     const MAX: usize = Self::MAX as usize;
     fn new(n: usize) -> Self {

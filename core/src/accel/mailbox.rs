@@ -5,6 +5,7 @@
 //! algorithm for ray tracing", Eurographics 1987. The bounded variant is the hashed mailbox of
 //! I. Wald's thesis (2004).
 
+use super::Id;
 use crate::memory::{Arena, Footprint, OutOfArena};
 
 /// Remembers which shapes the present ray has been tested against.
@@ -76,13 +77,13 @@ impl Mailbox for Off {
     }
 }
 
-/// One stamp a shape: 2 bytes each, no shape is tested twice.
+/// One stamp a shape: 2 bytes each, or one ([`Stamps::short`]); no shape is tested twice.
 ///
-/// Rays are numbered with 16 bits; every 65,535 rays all stamps are cleared.
+/// Rays are numbered with as many bits; every 65,535 rays, or 255, all stamps are cleared.
 #[derive(Debug)]
-pub struct Stamps<'m> {
-    stamps: &'m mut [u16],
-    ray: u16,
+pub struct Stamps<'m, W = u16> {
+    stamps: &'m mut [W],
+    ray: W,
 }
 
 impl<'m> Stamps<'m> {
@@ -96,24 +97,41 @@ impl<'m> Stamps<'m> {
     /// # Errors
     /// [`OutOfArena`].
     pub fn new(shapes: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
-        let stamps = arena.keep("mailbox", shapes)?;
-        stamps.fill(0);
-        Ok(Self { stamps, ray: 1 })
+        Self::cleared(shapes, arena)
     }
 }
 
-impl Mailbox for Stamps<'_> {
+impl<'m> Stamps<'m, u8> {
+    /// Stamps of a byte for so many shapes: for some thousands of them at most, as they are cleared
+    /// often.
+    ///
+    /// # Errors
+    /// [`OutOfArena`].
+    pub fn short(shapes: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
+        Self::cleared(shapes, arena)
+    }
+}
+
+impl<'m, W: Id> Stamps<'m, W> {
+    fn cleared(shapes: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
+        let stamps = arena.keep("mailbox", shapes)?;
+        stamps.fill(W::new(0));
+        Ok(Self { stamps, ray: W::new(1) })
+    }
+}
+
+impl<W: Id> Mailbox for Stamps<'_, W> {
     fn next_ray(&mut self) {
-        self.ray = self.ray.wrapping_add(1);
-        if self.ray == 0 {
-            self.stamps.fill(0);
-            self.ray = 1;
+        if self.ray.get() == W::MAX {
+            self.stamps.fill(W::new(0));
+            self.ray = W::new(0);
         }
+        self.ray = W::new(self.ray.get() + 1);
     }
 
     fn admit(&mut self, id: usize) -> bool {
         match self.stamps.get_mut(id) {
-            Some(stamp) if *stamp == self.ray => false,
+            Some(stamp) if stamp.get() == self.ray.get() => false,
             Some(stamp) => {
                 *stamp = self.ray;
                 true
@@ -260,6 +278,23 @@ mod tests {
             assert!(!mailbox.admit(2), "{ray}");
             // After 65,535 further rays the number of the first comes again.
             if ray == 65_534 {
+                assert!(mailbox.admit(1));
+            }
+        }
+    }
+
+    #[test]
+    fn short_stamps_survive_it_too() {
+        let mut block = Block([0xff; 1024]);
+        let mut mailbox = Stamps::short(3, &mut Arena::new(&mut block.0)).unwrap();
+        mailbox.next_ray();
+        assert!(mailbox.admit(1));
+        for ray in 0..1000 {
+            mailbox.next_ray();
+            assert!(mailbox.admit(2), "{ray}");
+            assert!(!mailbox.admit(2), "{ray}");
+            // After 255 further rays the number of the first comes again.
+            if ray == 254 {
                 assert!(mailbox.admit(1));
             }
         }

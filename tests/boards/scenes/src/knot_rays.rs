@@ -25,9 +25,9 @@ pub type Knot1024Bvh = Knot1024<Bvh<103>>;
 pub type Knot4096Bvh = Knot4096<Bvh<410>>;
 
 /// In a grid with stamps and exact lists, as fine as 12 KiB allow.
-pub type Knot1024Grid = Knot1024<StampedGrid<14, 14, 6, true>>;
+pub type Knot1024Grid = Knot1024<StampedGrid<13, 13, 9, true>>;
 /// As fine as 48 KiB allow.
-pub type Knot4096Grid = Knot4096<StampedGrid<22, 22, 13, true>>;
+pub type Knot4096Grid = Knot4096<StampedGrid<24, 24, 13, true>>;
 
 static FINE: [Triangle<f32>; 4096] = triangles(&points::<16, 128>(TURN_128, TURN_16));
 

@@ -79,7 +79,7 @@ impl<R: Real, const X: u32, const Y: u32, const Z: u32> Structure<R> for Grid<X,
     }
 }
 
-/// The same with a stamp for every shape: none is tested twice. Cells list shapes by their boxes or,
+/// The same with a stamp of a byte for every shape: none is tested twice. Cells list shapes by their boxes or,
 /// for more work while it is built, exactly.
 #[derive(Clone, Copy, Debug)]
 pub struct StampedGrid<const X: u32, const Y: u32, const Z: u32, const EXACT: bool = false>;
@@ -89,7 +89,7 @@ impl<R: Real, const X: u32, const Y: u32, const Z: u32, const EXACT: bool> Struc
 {
     const NAME: &'static str = "stamped-grid";
     type Built<'m> = accel::Grid<'m, R, u16, u16>;
-    type Mailbox<'m> = mailbox::Stamps<'m>;
+    type Mailbox<'m> = mailbox::Stamps<'m, u8>;
 
     fn build<'m, S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
@@ -105,7 +105,7 @@ impl<R: Real, const X: u32, const Y: u32, const Z: u32, const EXACT: bool> Struc
     }
 
     fn mailbox<'m>(shapes: usize, arena: &mut Arena<'m>) -> Result<Self::Mailbox<'m>, BuildError> {
-        Ok(mailbox::Stamps::new(shapes, arena)?)
+        Ok(mailbox::Stamps::short(shapes, arena)?)
     }
 }
 
