@@ -3,7 +3,9 @@
 //! The adaptive way is that of T. Whitted, "An improved illumination model for shaded display",
 //! CACM 23(6) (1980): rays go through the corners of pixels, where up to four pixels share them;
 //! where corners differ, the square between them is divided, and its parts again. A row of corners
-//! is all that is remembered between pixels.
+//! is all that is remembered between pixels. Other than there, a pixel is divided once where its
+//! neighbours in the row differ, too: what is small often falls between the corners of one pixel, seldom
+//! between those of three.
 
 use crate::memory::{Arena, Footprint, OutOfArena};
 use crate::num::{Real, Vec3, Vector};
@@ -72,8 +74,11 @@ impl<R: Real> Sampling<R> for Uniform {
 pub struct Adaptive<'m, R: Real> {
     /// Corners of the row's upper line; left of the pixel that comes next, of its lower line.
     corners: &'m mut [Vec3<R>],
-    /// The corner at the lower left of the pixel that comes next.
+    /// Of the upper line, the corner to the left of the pixel that comes next; of the lower one, the
+    /// corners at its left and at its right.
+    before: Vec3<R>,
     left: Vec3<R>,
+    right: Vec3<R>,
     /// The pixel that comes next.
     next: Option<(u16, u16)>,
     /// What is seen of a pixel at points an eighth of it apart, row by row, as far as is known.
@@ -88,8 +93,8 @@ const EDGE: usize = PARTS as usize + 1;
 
 impl<'m, R: Real> Adaptive<'m, R> {
     /// For pictures of so many columns. A pixel is divided where one of the channels differs by more
-    /// than `threshold` (0 to 1) between its corners, at most `levels` times (up to
-    /// [`MOST_LEVELS`]). A part of it, a fourth of the area, has to differ by four times as much, and
+    /// than `threshold` (0 to 1) between its corners and those of the pixels at its left and right, at
+    /// most `levels` times (up to [`MOST_LEVELS`]). A part of it, a fourth of the area, has to differ by four times as much, and
     /// so on: what counts is how much of the pixel's colour is in doubt.
     ///
     /// # Errors
@@ -104,8 +109,9 @@ impl<'m, R: Real> Adaptive<'m, R> {
         let corners = arena.keep("corner samples", usize::from(width) + 1)?;
         let parts = arena.keep("samples of a pixel", EDGE * EDGE)?;
         let levels = levels.min(MOST_LEVELS);
-        let (left, known) = (Vec3::<R>::default(), [0; EDGE]);
-        Ok(Self { corners, left, next: None, parts, known, threshold, levels })
+        let (black, known) = (Vec3::<R>::default(), [0; EDGE]);
+        let (before, left, right) = (black, black, black);
+        Ok(Self { corners, before, left, right, next: None, parts, known, threshold, levels })
     }
 
     /// The bytes it takes: 12 a column in `f32`, and 984 or up to 8 more.
@@ -137,9 +143,14 @@ impl<'m, R: Real> Adaptive<'m, R> {
         }
     }
 
-    /// The colour of a square, divided where its corners differ.
+    /// The colour of a pixel, divided where that is in doubt, and its parts where their corners differ.
     #[inline(never)]
-    fn divide(&mut self, pixel: Square<R>, see: &mut impl FnMut(i32, i32) -> Vec3<R>) -> Vec3<R> {
+    fn divide(
+        &mut self,
+        pixel: Square<R>,
+        in_doubt: bool,
+        see: &mut impl FnMut(i32, i32) -> Vec3<R>,
+    ) -> Vec3<R> {
         let least = PARTS >> self.levels;
         let (column, row) = (pixel.x, pixel.y);
         let mut see = |it: &mut Self, x: i32, y: i32| it.seen(x - column, y - row, || see(x, y));
@@ -149,13 +160,13 @@ impl<'m, R: Real> Adaptive<'m, R> {
         let _ = squares.push(pixel);
         while let Some(Square { x, y, size, corners }) = squares.pop() {
             let [a, b, c, d] = corners;
-            let (least_seen, most_seen) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
             let (mut threshold, mut edge) = (self.threshold, size);
             while edge < PARTS {
                 threshold = (threshold.min(R::ONE)).times_int(4);
                 edge += edge;
             }
-            let differs = (most_seen - least_seen).max_abs() > threshold;
+            let differs =
+                if size == PARTS { in_doubt } else { spread::<R, 2>([a, b], [c, d]) > threshold };
             if !(differs && size > least) {
                 let area = R::fraction(size * size, 4 * PARTS * PARTS);
                 color = color + (a + b + (c + d)) * area;
@@ -189,29 +200,45 @@ impl<R: Real> Sampling<R> for Adaptive<'_, R> {
         let mut see = |x, y| see(x, y).map(|c| c.clamp(R::ZERO, R::ONE));
         let i = usize::from(x);
         let in_order = self.next == Some((x, y));
+        let lower = row + PARTS;
+        // The columns of corners left of the pixel and right of its right neighbour, where there are any.
+        let last = (i + 2).min(self.corners.len().saturating_sub(1));
+        let first = i.saturating_sub(1);
         if !in_order {
-            // The beginning of a row sees all of its corners, another pixel only its own.
-            let last = if x == 0 { usize::MAX } else { i + 2 };
-            for (i, corner) in self.corners.iter_mut().enumerate().take(last).skip(i) {
+            // The beginning of a row sees all of its corners, another pixel only its own and the next.
+            let end = if x == 0 { usize::MAX } else { last + 1 };
+            for (i, corner) in self.corners.iter_mut().enumerate().take(end).skip(first) {
                 *corner = see(i as i32 * PARTS, row);
             }
         }
         if in_order && x > 0 {
             self.shift();
         } else {
-            self.left = see(column, row + PARTS);
+            if let (true, Some(before)) = (x > 0, self.corners.get_mut(first)) {
+                self.before = *before;
+                *before = see(column - PARTS, lower);
+            }
+            self.left = see(column, lower);
+            self.right = see(column + PARTS, lower);
             self.known = [0; EDGE];
         }
-        let corner = see(column + PARTS, row + PARTS);
+        let ahead = if last > i + 1 { see(last as i32 * PARTS, lower) } else { self.right };
+        let lower_before = self.corners.get(first).filter(|_| x > 0).copied();
+        let upper_ahead = self.corners.get(last).copied();
         let is_last = i + 2 >= self.corners.len();
         let Some([upper_left, upper_right]) = self.corners.get_mut(i..i + 2) else {
             return Vec3::<R>::default();
         };
-        let corners = [*upper_left, *upper_right, self.left, corner];
+        let corners = [*upper_left, *upper_right, self.left, self.right];
+        let [a, b, c, d] = corners;
+        let (before, upper_ahead) = (if x > 0 { self.before } else { a }, upper_ahead.unwrap_or(b));
+        let lower_before = lower_before.unwrap_or(c);
+        let spread = spread::<R, 4>([before, a, b, upper_ahead], [lower_before, c, d, ahead]);
+        self.before = *upper_left;
         *upper_left = self.left;
-        self.left = corner;
+        (self.left, self.right) = (self.right, ahead);
         self.next = if is_last {
-            *upper_right = corner;
+            *upper_right = self.left;
             y.checked_add(1).map(|y| (0, y))
         } else {
             x.checked_add(1).map(|x| (x, y))
@@ -219,8 +246,17 @@ impl<R: Real> Sampling<R> for Adaptive<'_, R> {
         if !in_order && x > 0 {
             self.next = None;
         }
-        self.divide(Square { x: column, y: row, size: PARTS, corners }, &mut see)
+        let pixel = Square { x: column, y: row, size: PARTS, corners };
+        self.divide(pixel, spread > self.threshold, &mut see)
     }
+}
+
+/// How much colours differ, in the channel that does most.
+fn spread<R: Real, const N: usize>(upper: [Vec3<R>; N], lower: [Vec3<R>; N]) -> R {
+    let mut all = upper.into_iter().chain(lower);
+    let first = all.next().unwrap_or_default();
+    let (least, most) = all.fold((first, first), |(least, most), c| (least.min(c), most.max(c)));
+    (most - least).max_abs()
 }
 
 /// A part of the picture: its upper left corner and its edge in eighths of pixels, and what is seen
@@ -273,11 +309,44 @@ mod tests {
     fn corners_are_shared_and_the_order_does_not_matter() {
         let (pixels, rays) = picture(0, &mut |_| (0..20).collect());
         assert_eq!(rays, 21 * 16, "a ray a corner");
-        let (backwards, more) = picture(0, &mut |_| (0..20).rev().collect());
-        assert_eq!(pixels, backwards);
+        let (_, more) = picture(0, &mut |_| (0..20).rev().collect());
         assert!(more > 3 * rays);
-        let (skipping, _) = picture(0, &mut |_| (5..20).chain(0..5).collect());
-        assert_eq!(pixels, skipping);
+        for levels in [0, 1, 3] {
+            let (pixels, _) = picture(levels, &mut |_| (0..20).collect());
+            let (backwards, _) = picture(levels, &mut |_| (0..20).rev().collect());
+            assert_eq!(pixels, backwards, "{levels}");
+            let (skipping, _) = picture(levels, &mut |_| (5..20).chain(0..5).collect());
+            assert_eq!(pixels, skipping, "{levels}");
+        }
+        assert_eq!(
+            pixels,
+            picture(0, &mut |y| if y % 3 == 0 {
+                (9..20).chain(0..9).collect()
+            } else {
+                (0..20).collect()
+            })
+            .0
+        );
+    }
+
+    #[test]
+    fn what_falls_between_the_corners_is_seen_where_a_neighbour_differs() {
+        // A square within the pixel (5, 5), and a point at a corner of the pixel before.
+        let seen = |point: bool, levels: u8| {
+            let mut bytes = [0_u64; 160];
+            let mut arena = Arena::new(bytemuck::cast_slice_mut(&mut bytes));
+            let mut adaptive = Adaptive::<f32>::new(20, 0.05, levels, &mut arena).unwrap();
+            let inside = |x: i32| (5 * PARTS + 2..=5 * PARTS + 6).contains(&x);
+            let mut see = |x: i32, y: i32| {
+                let lit = (inside(x) && inside(y)) || (point && (x, y) == (4 * PARTS, 5 * PARTS));
+                if lit { Vec3::ONE } else { Vec3::ZERO }
+            };
+            adaptive.pixel(5, 5, &mut see).x
+        };
+        assert_eq!(seen(false, 3), 0.0);
+        assert_eq!(seen(true, 0), 0.0);
+        assert_eq!(seen(true, 1), 0.25);
+        assert!((seen(true, 3) - 25.0 / 64.0).abs() < 0.05, "{}", seen(true, 3));
     }
 
     #[test]
