@@ -25,6 +25,8 @@ pub struct Wishes {
     pub structure: Option<Structure>,
     /// The mailbox.
     pub mailbox: Option<mailbox::Kind>,
+    /// Whether, without a structure, only rays that meet the box of the scene are tested at all.
+    pub clipped: Option<bool>,
     /// Cells of a grid along each axis.
     pub resolution: Option<[u32; 3]>,
     /// An octree's limit of shapes per cell.
@@ -39,7 +41,7 @@ pub struct Wishes {
     pub macro_cells: Option<bool>,
     /// Which cells of an octree are divided first.
     pub order: Option<octree::Order>,
-    /// Whether an octree's leaves with equal lists share one.
+    /// Whether a grid's cells or an octree's leaves with equal lists share one.
     pub shared: Option<bool>,
     /// How an octree's cells are stored.
     pub store: Option<octree::Store>,
@@ -58,7 +60,9 @@ impl Wishes {
 
     fn grid(&self, resolution: [u32; 3]) -> grid::Settings<Overlap> {
         let macro_cells = self.macro_cells.unwrap_or(true);
-        grid::Settings { resolution, huge: self.huge(), overlap: self.overlap(), macro_cells }
+        let (huge, overlap) = (self.huge(), self.overlap());
+        let shared = self.shared.unwrap_or(false);
+        grid::Settings { resolution, huge, overlap, macro_cells, shared }
     }
 
     /// An octree that takes what memory it can use.
@@ -218,7 +222,11 @@ fn fit<R: Real, S: Shapes<R>>(
 ) -> Result<accel::Kind, BuildError> {
     let taken = mailbox.footprint(scene.shapes().bounded());
     let accel = match structure {
-        Structure::Naive => accel::Kind::Naive,
+        Structure::Naive => {
+            // Up to a few shapes, the box would cost as much as they do.
+            let pays = wishes.structure.is_none() && scene.shapes().bounded() > FEW;
+            if wishes.clipped.unwrap_or(pays) { accel::Kind::Clipped } else { accel::Kind::Naive }
+        }
         Structure::Grid => accel::Kind::Grid(match wishes.resolution {
             Some(resolution) => wishes.grid(resolution),
             None => grid_for(scene, wishes, budget.saturating_sub(taken.kept)),

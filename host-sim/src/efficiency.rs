@@ -109,28 +109,19 @@ pub fn name(kind: Kind) -> &'static str {
     }
 }
 
-/// Measures a scene.
+/// Measures a scene, whose shapes are sorted by kind: the name of each and how many there are.
 ///
 /// # Errors
 /// A tree that is too large.
 pub fn measure<R: Real>(
     scene: &Scene<'_, R, HostShapes<'_, R>>,
+    kinds: &[(&'static str, usize)],
     camera: &Camera<R>,
 ) -> anyhow::Result<Efficiency> {
     let rays = rays(scene, camera);
-    let (combined, solids) = scene.shapes();
-    let kinds = [
-        ("combined", combined.count()),
-        ("sphere", solids.spheres.len()),
-        ("triangle", solids.triangles.triangles.len()),
-        ("polygon", solids.polygons.len()),
-        ("box", solids.boxes.len()),
-        ("cylinder", solids.cylinders.len()),
-        ("cone", solids.cones.len()),
-    ];
     let mut first = 0;
     let mut shapes = Vec::new();
-    for (kind, count) in kinds {
+    for &(kind, count) in kinds {
         let ids: Vec<usize> =
             (0..count.min(SAMPLE)).map(|i| first + i * count / count.min(SAMPLE)).collect();
         first += count;

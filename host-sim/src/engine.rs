@@ -13,8 +13,8 @@ use kibiray::scene::{Scene, Shapes};
 use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 
 use crate::options::{
-    AccelKind, Antialiasing, Common, Growth, Huge, ListKind, MailboxKind, Overlap, Store, Switch,
-    Walk,
+    AccelKind, Antialiasing, Common, Growth, Huge, ListKind, MailboxKind, Overlap, Skip, Store,
+    Switch, Walk,
 };
 use crate::structure;
 use crate::tables::HostShapes;
@@ -71,6 +71,7 @@ pub fn wishes(options: &Common) -> Wishes {
             MailboxKind::Stamp => Some(mailbox::Kind::Stamps),
             MailboxKind::Cache => Some(mailbox::Kind::Cache),
         },
+        clipped: options.does(Skip::Box).then_some(false),
         resolution: options.grid,
         max_objects: options.max_objects,
         max_level: options.max_level,
@@ -210,7 +211,7 @@ pub struct Built<'m, R: Real> {
     /// How to sample, a thread.
     pub samplings: Vec<AnySampling<'m, R>>,
     /// How long all that took.
-    pub seconds: f64,
+    pub pass: Pass,
 }
 
 impl<'m, R: Real> Built<'m, R> {
@@ -224,7 +225,7 @@ impl<'m, R: Real> Built<'m, R> {
         picture: Picture,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
-        let start = Instant::now();
+        let clock = Clock::start();
         let threads = usize::from(options.threads);
         let samplings = (0..threads).map(|_| picture.sampling(arena)).collect::<Result<_, _>>()?;
         let (budget, taken) = (arena.available(), arena.used());
@@ -245,7 +246,7 @@ impl<'m, R: Real> Built<'m, R> {
             })
             .collect::<Result<_, OutOfArena>>()?;
         let accel = structure::Structure::build(options, plan.accel, scene, arena)?;
-        Ok(Self { plan, accel, mailboxes, samplings, seconds: start.elapsed().as_secs_f64() })
+        Ok(Self { plan, accel, mailboxes, samplings, pass: clock.stop() })
     }
 
     /// The mailbox's name on the command line.
@@ -281,9 +282,25 @@ pub fn fastest(repeat: u32, mut pass: impl FnMut()) -> Pass {
 
 /// Runs `pass` once.
 pub fn timed(pass: impl FnOnce()) -> Pass {
-    let (wall, cpu) = (Instant::now(), ProcessTime::now());
+    let clock = Clock::start();
     pass();
-    Pass { wall_s: wall.elapsed().as_secs_f64(), cpu_s: cpu.elapsed().as_secs_f64() }
+    clock.stop()
+}
+
+/// Both clocks, running.
+struct Clock {
+    wall: Instant,
+    cpu: ProcessTime,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self { wall: Instant::now(), cpu: ProcessTime::now() }
+    }
+
+    fn stop(self) -> Pass {
+        Pass { wall_s: self.wall.elapsed().as_secs_f64(), cpu_s: self.cpu.elapsed().as_secs_f64() }
+    }
 }
 
 /// Has every worker take jobs until none is left. One worker stays on this thread.

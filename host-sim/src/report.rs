@@ -72,9 +72,10 @@ pub struct AccelReport {
     /// Lists that differ from each other, the empty one not counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distinct_lists: Option<usize>,
-    /// Bytes that an octree's leaves save by sharing lists.
+    /// Bytes that leaves or cells save by sharing lists; below 0 where the lengths of shared lists take
+    /// more.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub shared_bytes: Option<usize>,
+    pub shared_bytes: Option<isize>,
     /// Shapes in a leaf of a hierarchy, in the mean.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shapes_per_leaf: Option<f64>,
@@ -132,10 +133,13 @@ impl AccelReport {
 
     fn planned<R: Real>(accel: &Any<'_, R>) -> Self {
         match accel {
-            Any::Naive(_) => Self { kind: "naive", ..Self::default() },
+            Any::Naive(_) | Any::Clipped(_) => Self { kind: "naive", ..Self::default() },
             Any::SmallGrid(grid) => Self::grid(grid),
             Any::Grid(grid) => Self::grid(grid),
             Any::LargeGrid(grid) => Self::grid(grid),
+            Any::SmallShared(grid) => Self::shared_grid(grid),
+            Any::Shared(grid) => Self::shared_grid(grid),
+            Any::LargeShared(grid) => Self::shared_grid(grid),
             Any::Bvh(bvh) => Self::bvh(bvh),
             Any::LargeBvh(bvh) => Self::bvh(bvh),
             Any::Octree(octree) => match octree {
@@ -164,14 +168,23 @@ impl AccelReport {
         }
     }
 
-    fn grid<R: Real, I: Id + Eq + std::hash::Hash, O: Id>(grid: &Grid<'_, R, I, O>) -> Self {
-        let (leaves, empty, references, _) = lists(grid.lists());
+    fn shared_grid<R: Real, I: Id + Eq + std::hash::Hash, O: Id>(
+        grid: &Grid<'_, R, I, O, true>,
+    ) -> Self {
+        Self { shared_bytes: Some(grid.shared_bytes()), ..Self::grid(grid) }
+    }
+
+    fn grid<R: Real, I: Id + Eq + std::hash::Hash, O: Id, const SHARED: bool>(
+        grid: &Grid<'_, R, I, O, SHARED>,
+    ) -> Self {
+        let (leaves, empty, references, distinct) = lists(grid.lists());
         Self {
             kind: "grid",
             leaves: Some(leaves),
             empty_leaves: Some(empty),
             references: Some(references),
             aside: Some(grid.aside()),
+            distinct_lists: Some(distinct),
             resolution: Some(grid.resolution()),
             ..Self::default()
         }
@@ -204,7 +217,7 @@ impl AccelReport {
             references: Some(references),
             aside: Some(octree.aside()),
             distinct_lists: Some(distinct),
-            shared_bytes: Some(octree.shared_bytes()).filter(|bytes| *bytes > 0),
+            shared_bytes: Some(octree.shared_bytes() as isize).filter(|bytes| *bytes > 0),
             max_level: Some(octree.max_level()),
             stopped_by: Some(match octree.stopped_by() {
                 StoppedBy::Done => "done",
@@ -311,7 +324,7 @@ pub struct WorkReport {
     pub primitive_tests: u64,
     /// Tests that a mailbox made unnecessary.
     pub mailbox_skips: u64,
-    /// Lists skipped as a whole, which an octree's leaves share.
+    /// Lists skipped as a whole, which cells share.
     #[serde(skip_serializing_if = "is_zero")]
     pub list_skips: u64,
     /// Nodes or cells looked at.
@@ -343,6 +356,8 @@ pub struct TimeReport {
     pub load_s: f64,
     /// Planning, mailboxes and structure.
     pub build_s: f64,
+    /// Its processor time.
+    pub build_cpu_s: f64,
     /// The fastest pass.
     pub trace_s: f64,
     /// Its processor time, all threads together.

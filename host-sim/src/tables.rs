@@ -1,7 +1,9 @@
 //! From a description to the tables that the core traces: one number type, one table a kind.
 
 use kibiray::num::{Real, Vec3, Vector};
-use kibiray::scene::{Light, Material, Paint, Pattern, Scene, SceneError, Solids, Triangles, View};
+use kibiray::scene::{
+    Either, Light, Material, Paint, Pattern, Scene, SceneError, Shapes, Solids, Triangles, View,
+};
 use kibiray::shape::{
     AxisBox, Cone, Cylinder, Plane, Polygon, Polyhedron, Shape, ShapeError, Sphere, Triangle,
 };
@@ -107,8 +109,13 @@ pub struct Tables<R: Real> {
     skipped: usize,
 }
 
-/// The shapes that are traced: combined solids, and one table a kind.
-pub type HostShapes<'a, R> = (Combined<'a, R>, Solids<'a, R>);
+/// The shapes that are traced: those of one kind, where there are no others; otherwise combined
+/// solids, and one table a kind.
+pub type HostShapes<'a, R> =
+    Either<Mixed<'a, R>, Either<Triangles<'a, R>, Either<&'a [Sphere<R>], &'a [Polygon<'a, R>]>>>;
+
+/// Several kinds of shapes.
+type Mixed<'a, R> = (Combined<'a, R>, Solids<'a, R>);
 
 /// What borrows from [`Tables`] and is borrowed by a scene.
 #[derive(Debug)]
@@ -339,9 +346,24 @@ impl<R: Real> Tables<R> {
         &'a self,
         borrowing: &'a Borrowing<'a, R>,
     ) -> Result<Scene<'a, R, HostShapes<'a, R>>, TableError> {
+        self.scene_of(borrowing, true)
+    }
+
+    /// The same; unless `sorted`, shapes of one kind are traced like those of several.
+    ///
+    /// # Errors
+    /// As [`Tables::scene`].
+    pub fn scene_of<'a>(
+        &'a self,
+        borrowing: &'a Borrowing<'a, R>,
+        sorted: bool,
+    ) -> Result<Scene<'a, R, HostShapes<'a, R>>, TableError> {
         let refused = |error| TableError::Combined { id: None, why: PartError::Csg(error) };
         let combined = self.parts.combined(&borrowing.polyhedra).map_err(refused)?;
-        Scene::new((combined, self.solids(borrowing)))
+        let solids = self.solids(borrowing);
+        let mixed = Either::One((combined, solids));
+        let only = if sorted { only_kind(&combined, &solids) } else { None };
+        Scene::new(only.unwrap_or(mixed))
             .and_then(|scene| scene.painted(&self.materials, &self.paint))
             .and_then(|scene| scene.lit(&self.lights, self.background))
             .map_err(|error| match error {
@@ -350,6 +372,19 @@ impl<R: Real> Tables<R> {
                 }
                 error => TableError::Scene(error),
             })
+    }
+
+    /// The kinds of bounded shapes in the order of their ids, and how many there are.
+    pub fn kinds(&self) -> [(&'static str, usize); 7] {
+        [
+            ("combined", self.combined.len()),
+            ("sphere", self.spheres.shapes.len()),
+            ("triangle", self.triangles.len()),
+            ("polygon", self.ends.shapes.len()),
+            ("box", self.boxes.shapes.len()),
+            ("cylinder", self.cylinders.shapes.len()),
+            ("cone", self.cones.shapes.len()),
+        ]
     }
 
     /// The place in the file of a shape of the scene.
@@ -388,6 +423,24 @@ impl<R: Real> Tables<R> {
             + size_of_val(&*self.materials)
             + size_of_val(&*self.paint)
             + size_of_val(&*self.lights)
+    }
+}
+
+/// The set of all shapes, where these are of one kind.
+fn only_kind<'a, R: Real>(
+    combined: &Combined<'a, R>,
+    solids: &Solids<'a, R>,
+) -> Option<HostShapes<'a, R>> {
+    let all = combined.count() + solids.count();
+    let Solids { spheres, triangles, polygons, .. } = *solids;
+    if triangles.count() == all {
+        Some(Either::Other(Either::One(triangles)))
+    } else if spheres.len() == all {
+        Some(Either::Other(Either::Other(Either::One(spheres))))
+    } else if polygons.len() == all {
+        Some(Either::Other(Either::Other(Either::Other(polygons))))
+    } else {
+        None
     }
 }
 

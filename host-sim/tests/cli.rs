@@ -220,12 +220,12 @@ fn the_report_has_the_fields_that_scripts_rely_on() {
         "/rays/total /rays/hits",
         "/work/primitive_tests /work/mailbox_skips /work/traversal_steps /work/leaves_visited",
         "/work/empty_leaves_visited",
-        "/time/load_s /time/build_s /time/trace_s /time/trace_cpu_s /time/rays_per_s",
+        "/time/load_s /time/build_s /time/build_cpu_s /time/trace_s /time/trace_cpu_s /time/rays_per_s",
     ];
     let kinds = "/rays/primary /rays/primary_hits /rays/shadow /rays/shadow_hits /rays/secondary \
                  /rays/secondary_hits";
-    let cells = "/accel/leaves /accel/empty_leaves /accel/references";
-    let octree = "/accel/interior_nodes /accel/distinct_lists /accel/max_level /accel/stopped_by";
+    let cells = "/accel/leaves /accel/empty_leaves /accel/references /accel/distinct_lists";
+    let octree = "/accel/interior_nodes /accel/max_level /accel/stopped_by";
     let tree = "/accel/interior_nodes /accel/leaves /accel/references /accel/max_level \
                 /accel/shapes_per_leaf /accel/largest_leaf";
     let image = "/image/width /image/height /image/crc32";

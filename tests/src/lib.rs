@@ -161,7 +161,11 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         Kind::Grid(grid::Settings { huge, macro_cells, ..grid::Settings::new(resolution) })
     };
     let cubic = |n: u32| Kind::Grid(grid::Settings::new([n; 3]));
-    let mut setups = vec![(Kind::Naive, Stamps, UNLIMITED), (cubic(1), Off, UNLIMITED)];
+    let mut setups = vec![
+        (Kind::Naive, Stamps, UNLIMITED),
+        (Kind::Clipped, Off, UNLIMITED),
+        (cubic(1), Off, UNLIMITED),
+    ];
     // From the fewest nodes to one shape a leaf, and as a budget comes out.
     let shapes = scene.shapes().bounded();
     for nodes in [0, shapes / 24, shapes / 10, shapes] {
@@ -207,6 +211,12 @@ pub fn setups<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>) -> Vec<Setup> {
         shared.growth.lists = octree::Lists { overlap, shared: true };
         shared.growth.order = order;
         setups.push((Kind::Octree(shared), mailbox, budget));
+    }
+    for (macro_cells, mailbox) in [(true, Cache), (false, Off), (true, Stamps)] {
+        let cells = if mailbox == Off { [9, 40, 3] } else { [30; 3] };
+        let settings = grid::Settings::new(cells);
+        let shared = grid::Settings { macro_cells, shared: true, huge: Huge::Aside, ..settings };
+        setups.push((Kind::Grid(shared), mailbox, UNLIMITED));
     }
     // Every mailbox in turn: what it keeps does not depend on who asks.
     let mut mailboxes = [Off, Stamps, Cache].into_iter().cycle();

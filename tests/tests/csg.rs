@@ -6,7 +6,7 @@ use kibiray::accel::{Accel, Naive};
 use kibiray::geom::{Interval, Ray, Slopes};
 use kibiray::num::{Fixed, Real, Vector};
 use kibiray::probe::Counters;
-use kibiray::scene::{Camera, Shapes};
+use kibiray::scene::{Camera, Either, Shapes};
 use kibiray_host_sim::description::load::load;
 use kibiray_host_sim::description::{Description, nff};
 use kibiray_host_sim::frame::Frame;
@@ -74,7 +74,7 @@ fn skipping_saves_more_than_half_of_the_tests() {
         let tables = Tables::<f32>::new(&description).unwrap();
         let borrowing = tables.polygons();
         let scene = tables.scene(&borrowing).unwrap();
-        let combined = &scene.shapes().0;
+        let Either::One((combined, _)) = scene.shapes() else { panic!("{name}: of one kind") };
         let camera = Camera::new(tables.view(), 4.0 / 3.0).unwrap();
         let (mut rays, mut all, mut left) = (0, Counters::default(), Counters::default());
         let mut shoot = |ray: &Ray<f32>| {

@@ -1,7 +1,7 @@
 //! A structure whose kind is chosen while the program runs.
 
 use super::octree::{self, AnyOctree};
-use super::{Accel, BuildError, Bvh, Grid, Id, Naive, Overlap, Visitor, bvh, grid};
+use super::{Accel, BuildError, Bvh, Clipped, Grid, Id, Naive, Overlap, Visitor, bvh, grid};
 use crate::geom::Ray;
 use crate::memory::{Arena, Footprint};
 use crate::num::Real;
@@ -12,6 +12,8 @@ use crate::scene::{Scene, Shapes};
 pub enum Kind {
     /// [`Naive`].
     Naive,
+    /// [`Clipped`].
+    Clipped,
     /// [`Grid`].
     Grid(grid::Settings<Overlap>),
     /// An [`Octree`](super::Octree), within the memory that is free.
@@ -26,12 +28,20 @@ pub enum Kind {
 pub enum Any<'m, R: Real> {
     /// No structure.
     Naive(Naive),
+    /// No structure but a box.
+    Clipped(Clipped<R>),
     /// A grid with up to 65,535 shapes and references.
     SmallGrid(Grid<'m, R, u16, u16>),
     /// A grid with up to 65,535 shapes and more references.
     Grid(Grid<'m, R, u16, u32>),
     /// A grid with more shapes.
     LargeGrid(Grid<'m, R, u32, u32>),
+    /// A grid with shared lists, up to 65,535 shapes and references.
+    SmallShared(Grid<'m, R, u16, u16, true>),
+    /// The same with more references.
+    Shared(Grid<'m, R, u16, u32, true>),
+    /// The same with more shapes.
+    LargeShared(Grid<'m, R, u32, u32, true>),
     /// An octree.
     Octree(AnyOctree<'m, R>),
     /// A hierarchy of up to 65,535 shapes.
@@ -70,6 +80,12 @@ impl<'m, R: Real> Any<'m, R> {
         let shapes = scene.shapes().bounded();
         Ok(match kind {
             Kind::Naive => Self::Naive(Naive::new(scene)),
+            Kind::Clipped => Self::Clipped(Clipped::new(scene)),
+            Kind::Grid(n) if n.shared => match width(shapes, grid::size(scene, n)) {
+                Width::Small => Self::SmallShared(Grid::build_shared(scene, n, arena)?),
+                Width::Medium => Self::Shared(Grid::build_shared(scene, n, arena)?),
+                Width::Large => Self::LargeShared(Grid::build_shared(scene, n, arena)?),
+            },
             Kind::Grid(n) => match width(shapes, grid::size(scene, n)) {
                 Width::Small => Self::SmallGrid(Grid::build(scene, n, arena)?),
                 Width::Medium => Self::Grid(Grid::build(scene, n, arena)?),
@@ -104,7 +120,7 @@ impl<'m, R: Real> Any<'m, R> {
         let shapes = scene.shapes().bounded();
         let narrow = shapes <= <u16 as Id>::MAX;
         match kind {
-            Kind::Naive => Footprint::default(),
+            Kind::Naive | Kind::Clipped => Footprint::default(),
             Kind::Grid(n) => {
                 let size = grid::size(scene, n);
                 match width(shapes, size) {
@@ -124,9 +140,13 @@ impl<R: Real> Accel<R> for Any<'_, R> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         match self {
             Self::Naive(naive) => naive.walk(ray, visitor),
+            Self::Clipped(clipped) => clipped.walk(ray, visitor),
             Self::SmallGrid(grid) => grid.walk(ray, visitor),
             Self::Grid(grid) => grid.walk(ray, visitor),
             Self::LargeGrid(grid) => grid.walk(ray, visitor),
+            Self::SmallShared(grid) => grid.walk(ray, visitor),
+            Self::Shared(grid) => grid.walk(ray, visitor),
+            Self::LargeShared(grid) => grid.walk(ray, visitor),
             Self::Octree(octree) => octree.walk(ray, visitor),
             Self::Bvh(bvh) => bvh.walk(ray, visitor),
             Self::LargeBvh(bvh) => bvh.walk(ray, visitor),

@@ -138,6 +138,24 @@ impl<I: Id> Aside<I> {
     }
 }
 
+/// Places of a hash table that are looked at for a list.
+const PROBES: usize = 8;
+
+/// The places, of so many, at which a list is looked for among those that are there already.
+pub(crate) fn probes<I: Id>(list: &[I], places: usize) -> impl Iterator<Item = usize> {
+    // FNV-1a, a number at a time, and the golden ratio to spread what is left.
+    let hash = list
+        .iter()
+        .fold(0x811c_9dc5_u32, |hash, id| (hash ^ id.get() as u32).wrapping_mul(0x0100_0193));
+    let home = (u64::from(hash.wrapping_mul(0x9e37_79b9)) * places as u64) >> u32::BITS;
+    (home as usize..places).chain(0..places).take(PROBES)
+}
+
+/// Whether two lists are of the same shapes.
+pub(crate) fn is_equal<I: Id>(a: &[I], b: &[I]) -> bool {
+    a.iter().map(|id| id.get()).eq(b.iter().map(|id| id.get()))
+}
+
 /// Has a ray tested against the shapes of a list.
 pub(crate) fn visit<R: Real, I: Id, V: Visitor<R>>(list: &[I], visitor: &mut V) {
     if !list.is_empty() {

@@ -23,8 +23,9 @@ pub trait Mailbox {
 }
 
 /// Remembers some of the lists that the present ray has been tested against, and has another mailbox
-/// for their shapes. For octrees whose leaves share lists
-/// ([`octree::Lists::shared`](super::octree::Lists::shared)); 36 bytes.
+/// for their shapes. For octrees and grids whose cells share lists
+/// ([`octree::Lists::shared`](super::octree::Lists::shared),
+/// [`grid::Settings::shared`](super::grid::Settings::shared)); 36 bytes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lists<M> {
     shapes: M,

@@ -32,7 +32,7 @@ pub use grid::Grid;
 pub use id::Id;
 pub use listing::{ByBox, Huge, Listing, MOST_ASIDE, Overlap};
 pub use mailbox::Mailbox;
-pub use naive::Naive;
+pub use naive::{Clipped, Naive};
 pub use octree::Octree;
 pub use query::{Accel, Hit, Visitor};
 pub use tree::Tree;

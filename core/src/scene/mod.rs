@@ -2,12 +2,14 @@
 //! geometry is never copied.
 
 mod camera;
+mod either;
 mod framing;
 mod material;
 mod shapes;
 mod solids;
 
 pub use camera::{Camera, View, ViewError};
+pub use either::Either;
 pub(crate) use framing::Framing;
 pub use material::{Light, Material, Paint, Pattern};
 pub use shapes::Shapes;
@@ -197,6 +199,11 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         });
         let material = run.map_or(0, |run| usize::from(run.material));
         self.materials.get(material).unwrap_or(&self.unpainted)
+    }
+
+    /// Whether any of the surfaces mirrors or transmits. Time in proportion to their number.
+    pub fn mirrors(&self) -> bool {
+        self.materials.iter().any(|it| it.specular > R::ZERO || it.transmission > R::ZERO)
     }
 
     /// The surface where a ray hit a shape; `None` where a normal cannot be told. The hit is one of

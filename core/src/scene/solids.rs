@@ -60,6 +60,28 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
         self.triangles.occludes(id, ray, per_ray, min, max)
     }
 
+    fn nearest_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<(usize, R)> {
+        self.triangles.nearest_of(ids, ray, per_ray, min, max)
+    }
+
+    fn any_of(
+        &self,
+        ids: Range<usize>,
+        ray: &Ray<R>,
+        per_ray: &Self::PerRay,
+        min: R,
+        max: R,
+    ) -> Option<usize> {
+        self.triangles.any_of(ids, ray, per_ray, min, max)
+    }
+
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
         self.triangles.normal(id, ray, t)
     }

@@ -6,4 +6,4 @@ mod whitted;
 
 pub use renderer::Renderer;
 pub use sampling::{Adaptive, MOST_LEVELS, Middle, Sampling, Uniform};
-pub use whitted::{MOST_DEPTH, Secondary, Settings, Tracer};
+pub use whitted::{MOST_DEPTH, Secondary, Settings, Skips, Tracer};

@@ -27,6 +27,27 @@ pub enum Secondary {
     All,
 }
 
+/// Work that is not done where it cannot change the picture; each kind can be done all the same, to
+/// see what leaving it out gains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Skips {
+    /// Where a surface sends nothing of a light's back, neither matt nor as a highlight, no shadow ray
+    /// is shot to it.
+    pub shadows: bool,
+    /// In a scene where nothing mirrors or transmits, nothing is asked about rays that go on, and no
+    /// stack is laid out for them.
+    pub mirrors: bool,
+    /// A surface that faces away from a light shoots no shadow ray to it.
+    pub facing: bool,
+}
+
+impl Default for Skips {
+    /// All of it is left out.
+    fn default() -> Self {
+        Self { shadows: true, mirrors: true, facing: true }
+    }
+}
+
 /// How rays are followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings<R> {
@@ -45,13 +66,16 @@ pub struct Settings<R> {
     /// blocked. Pictures
     /// are the same; the work of a pixel then depends on the pixels before.
     pub shadow_cache: bool,
+    /// What is left out.
+    pub skips: Skips,
 }
 
 impl<R: Real> Default for Settings<R> {
-    /// Depth 5, contributing rays only, none of them too faint, with a shadow cache.
+    /// Depth 5, contributing rays only, none of them too faint, with a shadow cache, all left out that
+    /// cannot change the picture.
     fn default() -> Self {
-        let secondary = Secondary::Contributing;
-        Self { max_depth: 5, secondary, cutoff: R::ZERO, shadow_cache: true }
+        let (secondary, skips) = (Secondary::Contributing, Skips::default());
+        Self { max_depth: 5, secondary, cutoff: R::ZERO, shadow_cache: true, skips }
     }
 }
 
@@ -86,7 +110,8 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         mailbox: M,
         settings: Settings<R>,
     ) -> Self {
-        let max_depth = settings.max_depth.clamp(1, MOST_DEPTH);
+        let goes_on = !settings.skips.mirrors || scene.mirrors();
+        let max_depth = if goes_on { settings.max_depth.clamp(1, MOST_DEPTH) } else { 1 };
         Self {
             scene,
             accel,
@@ -98,10 +123,10 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 
     /// The colour that a ray from the eye sees, not limited to 1.
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
-        if usize::from(self.settings.max_depth) <= USUAL_DEPTH {
-            self.color_within::<P, USUAL_DEPTH>(ray, probe)
-        } else {
-            self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe)
+        match usize::from(self.settings.max_depth) {
+            1 => self.color_within::<P, 0>(ray, probe),
+            2..=USUAL_DEPTH => self.color_within::<P, USUAL_DEPTH>(ray, probe),
+            _ => self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe),
         }
     }
 
@@ -188,16 +213,17 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     fn local<P: Probe>(&mut self, arrival: &Arrival<'_, R>, weight: R, probe: &mut P) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         for (i, light) in self.scene.lights().iter().enumerate() {
-            let Some((ray, distance)) = arrival.towards(light) else { continue };
-            let cutoff = self.settings.cutoff;
-            let faint = cutoff > R::ZERO && arrival.at_most(&ray, light) * weight < cutoff;
-            let light = if faint {
-                light.color * R::HALF
-            } else if self.is_blocked(i, &ray, distance, probe) {
+            let Settings { cutoff, skips, .. } = self.settings;
+            let Some(Towards { ray, distance, faces }) = arrival.towards(light, skips) else {
                 continue;
-            } else {
-                light.color
             };
+            let at_most = |light| arrival.at_most(&ray, light) * weight;
+            let faint = faces && cutoff > R::ZERO && at_most(light) < cutoff;
+            let blocked = !faint && self.is_blocked(i, &ray, distance, probe);
+            if blocked || !faces {
+                continue;
+            }
+            let light = if faint { light.color * R::HALF } else { light.color };
             color = color + arrival.reflected(ray.direction()).scale(light);
         }
         color
@@ -244,23 +270,42 @@ struct Arrival<'a, R: Real> {
     mirrored: Vec3<R>,
 }
 
+/// A ray from a surface to a light, its direction of length 1.
+struct Towards<R: Real> {
+    ray: Ray<R>,
+    /// The light's parameter.
+    distance: R,
+    /// Whether the surface faces the light.
+    faces: bool,
+}
+
 /// A ray that goes on from a surface, and its share.
 type Spawned<R> = Option<(Ray<R>, R)>;
 
 impl<R: Real> Arrival<'_, R> {
-    /// The ray to a light, its direction of length 1, and the light's parameter; `None` when the
-    /// surface faces away.
-    fn towards(&self, light: &Light<R>) -> Option<(Ray<R>, R)> {
+    /// The ray to a light; `None` where it can be left out.
+    fn towards(&self, light: &Light<R>, skips: Skips) -> Option<Towards<R>> {
         let towards = R::towards(self.origin, light.position);
         let zero = R::Wide::default();
         let faces = |n: Vec3<R>| n.dot(towards) > zero;
-        if !(faces(self.surface.shading) && faces(self.surface.normal)) {
+        let faces = faces(self.surface.shading) && faces(self.surface.normal);
+        if !faces && skips.facing {
             return None;
         }
         let unit = towards.unit()?;
-        let ray =
-            self.ray.turned(self.origin, unit, R::ONE, self.surface.reach, self.surface.left)?;
-        Some((ray, R::distance_to(light.position, R::narrow(towards.dot(unit)))))
+        if skips.shadows && !self.reflects(unit) {
+            return None;
+        }
+        let Surface { reach, left, .. } = *self.surface;
+        let ray = self.ray.turned(self.origin, unit, R::ONE, reach, left)?;
+        let distance = R::distance_to(light.position, R::narrow(towards.dot(unit)));
+        Some(Towards { ray, distance, faces })
+    }
+
+    /// Whether the surface sends anything back of light from a direction of length 1.
+    fn reflects(&self, towards: Vec3<R>) -> bool {
+        let Material { diffuse, specular, .. } = *self.material;
+        diffuse > R::ZERO || (specular > R::ZERO && self.mirrored.dot(towards) > R::Wide::default())
     }
 
     /// What a light adds at most, in any channel.

@@ -38,7 +38,7 @@ fn of_scene<R: Real>(name: &str) -> anyhow::Result<Efficiency> {
     let tables = Tables::<R>::new(&moved)?;
     let polygons = tables.polygons();
     let scene = tables.scene(&polygons)?;
-    measure(&scene, &Camera::new(tables.view(), R::ONE)?)
+    measure(&scene, &tables.kinds(), &Camera::new(tables.view(), R::ONE)?)
 }
 
 /// B and I in nanoseconds, p in percent.

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use kibiray::num::{Fixed, Real};
 use kibiray::scene::Camera;
-use kibiray::trace::{Secondary, Settings};
+use kibiray::trace::Settings;
 
 use super::stage::{self, DEFAULT_RAM, Stage};
 use crate::description::demo;
 use crate::engine::Picture;
 use crate::image::HeatMap;
-use crate::options::{Cli, Command, Number, Render, Skip};
+use crate::options::{Cli, Command, Number, Render};
 use crate::picture::{self, Rendered};
 use crate::report::{ImageReport, RaysReport, Report};
 use crate::terminal::{self, Outcome};
@@ -80,15 +80,12 @@ fn render<R: Real>(
     }
     let aspect = R::fraction(width.into(), height.into());
     let camera = Camera::new(tables.view(), aspect)?;
+    let by_skips = options.common.settings::<R>();
     let settings = Settings {
         max_depth: options.max_depth,
-        secondary: if options.common.no_skip.contains(&Skip::Contribution) {
-            Secondary::All
-        } else {
-            Secondary::Contributing
-        },
         cutoff: R::from_f64(options.cutoff),
-        shadow_cache: !options.no_shadow_cache && !options.common.no_skip.contains(&Skip::Occluder),
+        shadow_cache: by_skips.shadow_cache && !options.no_shadow_cache,
+        ..by_skips
     };
     let plan = built.plan;
     let bar = super::progress(height.into(), "rows");

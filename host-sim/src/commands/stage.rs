@@ -14,7 +14,7 @@ use crate::description::Description;
 use crate::description::load::load;
 use crate::engine::{Built, Memory, Pass, Picture};
 use crate::frame::Frame;
-use crate::options::{Common, Number};
+use crate::options::{Common, Number, Skip};
 use crate::report::{
     AccelReport, MemoryReport, RaysReport, Report, SceneReport, TimeReport, WorkReport,
 };
@@ -65,7 +65,7 @@ pub(super) fn set<R: Real>(
     let moved = frame.apply(description);
     let tables = Tables::<R>::new(&moved).with_context(named)?;
     let polygons = tables.polygons();
-    let scene = tables.scene(&polygons).with_context(named)?;
+    let scene = tables.scene_of(&polygons, !options.does(Skip::Kinds)).with_context(named)?;
     let load_s = seconds + start.elapsed().as_secs_f64();
 
     let mut memory = Memory::new(ram)?;
@@ -85,7 +85,12 @@ pub(super) fn set<R: Real>(
         memory: MemoryReport::of(&arena),
         rays: RaysReport::default(),
         work: WorkReport::default(),
-        time: TimeReport { load_s, build_s: built.seconds, ..TimeReport::default() },
+        time: TimeReport {
+            load_s,
+            build_s: built.pass.wall_s,
+            build_cpu_s: built.pass.cpu_s,
+            ..TimeReport::default()
+        },
         image: None,
     };
     act(Stage { tables: &tables, scene: &scene, frame, built, report })

@@ -3,7 +3,7 @@
 use kibiray::num::{Fixed, Real};
 use kibiray::probe::{Counters, Probe};
 use kibiray::scene::Camera;
-use kibiray::trace::{Secondary, Settings, Tracer};
+use kibiray::trace::{Secondary, Settings, Skips, Tracer};
 
 use super::stage::{self, DEFAULT_RAM, Stage};
 use crate::engine::{Built, HostTracer, Picture, fastest, share};
@@ -40,8 +40,13 @@ fn trace<R: Real>(options: &Stats, stage: Stage<'_, R>) -> anyhow::Result<()> {
     let Stage { tables, scene, built, mut report, .. } = stage;
     let Built { accel, mailboxes, .. } = built;
     let RaySet::Spd = options.rays;
-    let settings =
-        Settings { secondary: Secondary::All, shadow_cache: false, ..Settings::default() };
+    // Every ray that the published counts have.
+    let settings = Settings {
+        secondary: Secondary::All,
+        shadow_cache: false,
+        skips: Skips { shadows: false, ..Skips::default() },
+        ..Settings::default()
+    };
     let camera = Camera::new(tables.view(), R::ONE)?;
     let mut workers: Vec<_> = mailboxes
         .into_iter()

@@ -134,6 +134,16 @@ pub enum Skip {
     Contribution,
     /// Shadow rays: try the last occluder first
     Occluder,
+    /// Shadow rays from surfaces that send nothing of the light back
+    Shadows,
+    /// Shadow rays from surfaces that face away from the light
+    Facing,
+    /// What rays that go on need, in scenes where nothing mirrors or transmits
+    Mirrors,
+    /// A loop for each kind of shape, in scenes that have only one
+    Kinds,
+    /// Tests of all shapes, without a structure, for rays that pass the box around them
+    Box,
     /// Cells of a grid where nothing is, several at a time
     Empty,
     /// Shapes in cells that their boxes touch and their surfaces do not

@@ -2,6 +2,8 @@
 
 use clap::Args;
 use kibiray::accel::octree;
+use kibiray::num::Real;
+use kibiray::trace::{Secondary, Settings, Skips};
 use std::path::PathBuf;
 
 use super::{
@@ -45,7 +47,7 @@ pub struct Common {
     /// Octree: which cells are divided first, while memory lasts [default: fifo]
     #[arg(long, value_enum, value_name = "ORDER")]
     pub growth: Option<Growth>,
-    /// Octree: whether leaves with equal lists share one, which a ray is tested against once
+    /// Grid and octree: whether cells with equal lists share one, which a ray is tested against once
     /// [default: own]
     #[arg(long, value_enum, value_name = "KIND")]
     pub lists: Option<ListKind>,
@@ -99,8 +101,8 @@ impl Common {
             || self.max_level.is_some()
             || self.growth.is_some()
             || self.store.is_some()
-            || self.lists.is_some()
             || self.walk.is_some_and(|walk| !walk.is_of_tree());
+        let lists = self.lists.is_some();
         let tree = self.builder.is_some()
             || self.insertion.is_some()
             || self.seed.is_some()
@@ -116,6 +118,9 @@ impl Common {
                 "--max-objects, --max-level, --store and --walk are only for --accel octree".into(),
             );
         }
+        if lists && !matches!(self.accel, AccelKind::Auto | AccelKind::Grid | AccelKind::Octree) {
+            return Err("--lists is only for --accel grid and octree".into());
+        }
         if self.bound.is_some() && !matches!(self.accel, AccelKind::Tree | AccelKind::Sorted) {
             return Err("--bound is only for --accel tree and sorted".into());
         }
@@ -130,7 +135,30 @@ impl Common {
 
     /// Whether rays remember lists that leaves share.
     pub fn shares_lists(&self) -> bool {
-        self.lists == Some(ListKind::Shared) && !self.no_skip.contains(&Skip::Lists)
+        self.lists == Some(ListKind::Shared) && !self.does(Skip::Lists)
+    }
+
+    /// Whether that is done which is skipped otherwise.
+    pub fn does(&self, skip: Skip) -> bool {
+        self.no_skip.contains(&skip)
+    }
+
+    /// What `--no-skip` says of how rays are followed.
+    pub fn settings<R: Real>(&self) -> Settings<R> {
+        Settings {
+            secondary: if self.does(Skip::Contribution) {
+                Secondary::All
+            } else {
+                Secondary::Contributing
+            },
+            shadow_cache: !self.does(Skip::Occluder),
+            skips: Skips {
+                shadows: !self.does(Skip::Shadows),
+                mirrors: !self.does(Skip::Mirrors),
+                facing: !self.does(Skip::Facing),
+            },
+            ..Settings::default()
+        }
     }
 
     /// What `--no-skip` says of structures, where nothing else does.

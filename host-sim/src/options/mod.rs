@@ -59,7 +59,7 @@ pub enum Command {
     Trace(Trace),
     /// Render a scene in less and more memory, and plot what that costs
     Sweep(Sweep),
-    /// Measure choices against each other, in turn, round by round, and print ratios
+    /// Measure choices against each other, in turn, round by round; tables as Markdown
     Compare(Compare),
     /// Measure which bounding solids pay, by kind of bound and kind of shape
     Bounds(Bounds),
@@ -215,12 +215,14 @@ pub enum Table {
     Growth,
     #[value(help = "lists by boxes with exact ones")]
     Overlap,
-    #[value(help = "equal lists of an octree's leaves stored once with every leaf its own")]
+    #[value(help = "equal lists of a grid or an octree stored once with every cell its own")]
     Lists,
     #[value(help = "every way to skip work with going without it")]
     Skips,
     #[value(help = "ways to store an octree")]
     Stores,
+    #[value(help = "time, memory and building of balls and tetra up to a million shapes")]
+    Size,
 }
 
 /// `bounds`.

@@ -65,9 +65,13 @@ pub fn build(scene: Triangles, structure: Structure, bytes: usize) -> Result<Bui
     let (bytes_kept, bytes_peak) = (arena.used(), arena.high_water());
     let batch = match accel {
         Any::Naive(accel) => ready(scene, accel, mailbox),
+        Any::Clipped(accel) => ready(scene, accel, mailbox),
         Any::SmallGrid(accel) => ready(scene, accel, mailbox),
         Any::Grid(accel) => ready(scene, accel, mailbox),
         Any::LargeGrid(accel) => ready(scene, accel, mailbox),
+        Any::SmallShared(accel) => ready(scene, accel, mailbox),
+        Any::Shared(accel) => ready(scene, accel, mailbox),
+        Any::LargeShared(accel) => ready(scene, accel, mailbox),
         Any::Octree(accel) => ready(scene, accel, mailbox),
         Any::Bvh(accel) => ready(scene, accel, mailbox),
         Any::LargeBvh(accel) => ready(scene, accel, mailbox),

@@ -14,13 +14,16 @@ use crate::scene::{Scene, Shapes};
 /// The extra at the lower end is a little greater than at the upper: an even number of cells would
 /// otherwise put a wall into the middle of the scene, where symmetric scenes like to have faces,
 /// and each of these would be listed on both sides.
-fn room<R: Real, S: Shapes<R>, I: Id>(scene: &Scene<'_, R, S>, huge: Huge) -> (Aabb<R>, Aside<I>) {
+pub(super) fn room<R: Real, S: Shapes<R>, I: Id>(
+    scene: &Scene<'_, R, S>,
+    huge: Huge,
+) -> (Aabb<R>, Aside<I>) {
     let (aside, bounds) = Aside::of(scene, huge);
     (lattice::root(bounds, scene.pad(), 33, 31), aside)
 }
 
 /// The shapes that a grid lists.
-fn listed<R: Real, S: Shapes<R>, I: Id>(
+pub(super) fn listed<R: Real, S: Shapes<R>, I: Id>(
     scene: &Scene<'_, R, S>,
     aside: &Aside<I>,
 ) -> impl DoubleEndedIterator<Item = usize> {
@@ -33,12 +36,13 @@ pub fn size<R: Real, S: Shapes<R>, L: Listing>(
     scene: &Scene<'_, R, S>,
     settings: impl Into<Settings<L>>,
 ) -> Size {
-    let Settings { resolution, huge, overlap, .. } = settings.into();
+    let Settings { resolution, huge, overlap, shared, .. } = settings.into();
     let (root, aside) = room::<_, _, u32>(scene, huge);
-    size_of_room(scene, &Lattice::new(root, resolution, scene.pad()), &aside, overlap)
+    let size = size_of_room(scene, &Lattice::new(root, resolution, scene.pad()), &aside, overlap);
+    if shared { size.shared() } else { size }
 }
 
-fn size_of_room<R: Real, S: Shapes<R>, L: Listing>(
+pub(super) fn size_of_room<R: Real, S: Shapes<R>, L: Listing>(
     scene: &Scene<'_, R, S>,
     lattice: &Lattice<R>,
     aside: &Aside<impl Id>,
@@ -126,7 +130,7 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
         settings: impl Into<Settings<L>>,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
-        let Settings { resolution, huge, overlap, macro_cells } = settings.into();
+        let Settings { resolution, huge, overlap, macro_cells, .. } = settings.into();
         let (root, aside) = room::<_, _, I>(scene, huge);
         let lattice = Lattice::new(root, resolution, scene.pad());
         let shapes = scene.shapes().bounded();
@@ -163,14 +167,14 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
             });
         }
         if macro_cells {
-            distance::mark(slots, lattice.count());
+            distance::mark::<O, false>(slots, lattice.count());
         }
         Ok(Self { lattice, slots, references, aside })
     }
 }
 
 /// Calls `f` with the number of every cell that lists a shape.
-fn for_cells<R: Real, S: Shapes<R>, L: Listing>(
+pub(super) fn for_cells<R: Real, S: Shapes<R>, L: Listing>(
     lattice: &Lattice<R>,
     scene: &Scene<'_, R, S>,
     overlap: L,

@@ -49,8 +49,17 @@ pub(super) fn between<O: Id>(slots: &[O], ends: &[O], cell: usize) -> Slot {
     }
 }
 
+/// What the slot of a cell says where it is no end of another's list: its distance, if it is empty.
+pub(super) fn alone<O: Id>(slots: &[O], cell: usize) -> Option<usize> {
+    let from = slots.get(cell).map_or(O::MAX, |slot| slot.get());
+    (from > most_offset::<O>()).then(|| O::MAX - from)
+}
+
 /// The distance of a cell, 0 if it is full.
-fn distance<O: Id>(slots: &[O], cell: usize) -> usize {
+fn distance<O: Id, const SHARED: bool>(slots: &[O], cell: usize) -> usize {
+    if SHARED {
+        return alone(slots, cell).unwrap_or(0);
+    }
     match slot(slots, cell) {
         Slot::List(..) => 0,
         Slot::Empty(distance) => distance,
@@ -62,11 +71,11 @@ fn distance<O: Id>(slots: &[O], cell: usize) -> usize {
 /// Two passes over all cells, each taking the least distance of the 13 neighbours on one side, plus
 /// 1: A. Rosenfeld, J. L. Pfaltz, "Distance functions on digital pictures", Pattern Recognition 1
 /// (1968). Exact for the chessboard distance.
-pub(super) fn mark<O: Id>(slots: &mut [O], count: [i32; 3]) {
+pub(super) fn mark<O: Id, const SHARED: bool>(slots: &mut [O], count: [i32; 3]) {
     let mut is_end = false;
     for cell in 0..slots.len().saturating_sub(1) {
-        let full = matches!(slot(slots, cell), Slot::List(..));
-        if !full && !is_end {
+        let full = distance::<O, SHARED>(slots, cell) == 0;
+        if !full && (SHARED || !is_end) {
             set(slots, cell, FARTHEST);
         }
         is_end = full;
@@ -76,20 +85,20 @@ pub(super) fn mark<O: Id>(slots: &mut [O], count: [i32; 3]) {
     for z in cells(nz) {
         for y in cells(ny) {
             for x in cells(nx) {
-                relax(slots, count, [x, y, z], -1);
+                relax::<O, SHARED>(slots, count, [x, y, z], -1);
             }
         }
     }
     for z in cells(nz).rev() {
         for y in cells(ny).rev() {
             for x in cells(nx).rev() {
-                relax(slots, count, [x, y, z], 1);
+                relax::<O, SHARED>(slots, count, [x, y, z], 1);
             }
         }
     }
 }
 
-fn set<O: Id>(slots: &mut [O], cell: usize, distance: usize) {
+pub(super) fn set<O: Id>(slots: &mut [O], cell: usize, distance: usize) {
     if let Some(slot) = slots.get_mut(cell) {
         *slot = O::new(O::MAX - distance);
     }
@@ -97,10 +106,15 @@ fn set<O: Id>(slots: &mut [O], cell: usize, distance: usize) {
 
 /// Takes over what the neighbours before (-1) or after (1) a cell know. Beyond the grid all is
 /// empty.
-fn relax<O: Id>(slots: &mut [O], count: [i32; 3], [x, y, z]: [i32; 3], side: i32) {
+fn relax<O: Id, const SHARED: bool>(
+    slots: &mut [O],
+    count: [i32; 3],
+    [x, y, z]: [i32; 3],
+    side: i32,
+) {
     let [nx, ny, nz] = count;
     let here = index(count, x, y, z);
-    let known = distance(slots, here);
+    let known = distance::<O, SHARED>(slots, here);
     if known <= 1 {
         return;
     }
@@ -115,7 +129,7 @@ fn relax<O: Id>(slots: &mut [O], count: [i32; 3], [x, y, z]: [i32; 3], side: i32
         for dx in from..=1 {
             let x = x + side * dx;
             if x >= 0 && x < nx {
-                least = least.min(distance(slots, index(count, x, y, z)) + 1);
+                least = least.min(distance::<O, SHARED>(slots, index(count, x, y, z)) + 1);
             }
         }
     }

@@ -5,11 +5,15 @@
 //! Lists as one array of references and one of offsets, built by counting: A. Lagae, P. Dutré,
 //! "Compact, fast and robust grids for ray tracing", EGSR 2008.
 //!
+//! Cells with equal lists may share one: a cell then knows where its list begins, and a list how long
+//! it is.
+//!
 //! Instead of adding a cell's width to the parameter of the next wall, the parameter is computed
 //! from the wall's number: one multiplication more, and wrong cells become 15 to 50 times rarer.
 
 mod build;
 mod distance;
+mod share;
 mod walk;
 
 pub use build::{resolution_for, size, suits};
@@ -21,9 +25,10 @@ use crate::memory::Footprint;
 use crate::num::Real;
 use distance::Slot;
 
-/// A grid. `I` stores ids of shapes, `O` offsets into the lists.
+/// A grid. `I` stores ids of shapes, `O` offsets into the lists; `SHARED` says whether cells with equal
+/// lists share one: a type, so that a program that does without has no code for it.
 #[derive(Debug)]
-pub struct Grid<'m, R: Real, I, O> {
+pub struct Grid<'m, R: Real, I, O, const SHARED: bool = false> {
     lattice: Lattice<R>,
     /// Where the list of each cell begins, and where the last one ends, or how far it is to the
     /// next list: [`Slot`].
@@ -45,12 +50,16 @@ pub struct Settings<L = ByBox> {
     /// Whether empty cells know how far it is to the next that is not: takes no memory, but time
     /// while building.
     pub macro_cells: bool,
+    /// Whether [`Any`](super::Any) shares equal lists. How much that saves is not known beforehand: a
+    /// size is then what a build cannot exceed. See [`mailbox::Lists`](super::mailbox::Lists).
+    pub shared: bool,
 }
 
 impl<L: Listing> Settings<L> {
     /// Everything is listed, in the default way; no distances.
     pub fn new(resolution: [u32; 3]) -> Self {
-        Self { resolution, huge: Huge::Inside, overlap: L::default(), macro_cells: false }
+        let (huge, overlap) = (Huge::Inside, L::default());
+        Self { resolution, huge, overlap, macro_cells: false, shared: false }
     }
 }
 
@@ -65,7 +74,7 @@ impl From<[u32; 3]> for Settings {
 pub struct Size {
     /// Cells, or the greatest number there is if they do not fit the address space.
     pub cells: usize,
-    /// Entries of all lists.
+    /// Entries of all lists; where they are shared, their lengths included, as many as there can be.
     pub references: usize,
 }
 
@@ -80,9 +89,16 @@ impl Size {
         let offsets = Footprint::of::<O>(self.cells.saturating_add(1));
         offsets.then(Footprint::of::<I>(self.references))
     }
+
+    /// The size with shared lists, which begin with their length, before any is found equal.
+    #[must_use]
+    pub fn shared(self) -> Self {
+        let full = self.cells.min(self.references);
+        Self { references: self.references.saturating_add(full), ..self }
+    }
 }
 
-impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
+impl<'m, R: Real, I: Id, O: Id, const SHARED: bool> Grid<'m, R, I, O, SHARED> {
     /// Cells along each axis.
     pub fn resolution(&self) -> [u32; 3] {
         self.lattice.count().map(|n| n as u32)
@@ -95,11 +111,27 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
 
     /// The lists of all cells, x running fastest.
     pub fn lists(&self) -> impl Iterator<Item = &'m [I]> {
-        (0..self.slots.len().saturating_sub(1)).map(|cell| match distance::slot(self.slots, cell) {
-            Slot::List(from, to) => self.references.get(from..to).unwrap_or_default(),
-            Slot::Empty(_) => &[],
+        let Self { slots, references, .. } = *self;
+        (0..slots.len().saturating_sub(1)).map(move |cell| {
+            match slot_of::<I, O, SHARED>(slots, references, cell) {
+                Slot::List(from, to) => references.get(from..to).unwrap_or_default(),
+                Slot::Empty(_) => &[],
+            }
         })
     }
+
+    /// Bytes that lists would take more if every cell had its own; below 0 where nearly all differ, as
+    /// shared ones begin with their length.
+    pub fn shared_bytes(&self) -> isize {
+        let all: usize = self.lists().map(<[I]>::len).sum();
+        (all as isize - self.references.len() as isize) * size_of::<I>() as isize
+    }
+}
+
+/// What is known of a cell.
+#[inline(always)]
+fn slot_of<I: Id, O: Id, const SHARED: bool>(slots: &[O], references: &[I], cell: usize) -> Slot {
+    if SHARED { share::slot(slots, references, cell) } else { distance::slot(slots, cell) }
 }
 
 /// The number of a cell.

@@ -1,7 +1,7 @@
 //! The way of a ray through a grid.
 
 use super::distance::{Slot, between};
-use super::{Grid, index};
+use super::{Grid, index, share};
 use crate::accel::lattice::Way;
 use crate::accel::{Accel, Id, Visitor};
 use crate::geom::Ray;
@@ -83,7 +83,7 @@ impl<R: Real> Along<R> {
     }
 }
 
-impl<R: Real, I: Id, O: Id> Accel<R> for Grid<'_, R, I, O> {
+impl<R: Real, I: Id, O: Id, const SHARED: bool> Accel<R> for Grid<'_, R, I, O, SHARED> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let [x, y, z] = Axis::ALL.map(|axis| self.lattice.way(ray, axis));
         let enter = visitor.start().max(x.enter).max(y.enter).max(z.enter);
@@ -150,13 +150,20 @@ impl<R: Real, I: Id, O: Id> Accel<R> for Grid<'_, R, I, O> {
                     }
                 };
                 cell = cell.wrapping_add_signed(stride);
-                let found = between(self.slots, ends, cell);
+                let found = if SHARED {
+                    share::slot(self.slots, self.references, cell)
+                } else {
+                    between(self.slots, ends, cell)
+                };
                 visitor.probe().step();
                 visitor.probe().leaf(matches!(found, Slot::Empty(_)));
                 match found {
                     Slot::List(from, to) => {
                         reach = 1;
-                        if let Some(list) = self.references.get(from..to) {
+                        // A shared list goes by its place.
+                        if let Some(list) = self.references.get(from..to)
+                            && (!SHARED || visitor.admit_list(from))
+                        {
                             break list;
                         }
                     }

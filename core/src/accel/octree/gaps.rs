@@ -9,13 +9,10 @@ use super::build::Growing;
 use super::cursor::Slot;
 use super::list_at;
 use super::storage::{Content, Storage};
-use crate::accel::{Id, Listing};
+use crate::accel::{Id, Listing, listing};
 use crate::num::Real;
 use crate::scene::Shapes;
 use core::cell::Cell;
-
-/// Words of a table that are looked at for a list.
-const PROBES: usize = 8;
 
 impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
     Growing<'_, '_, 'm, R, S, I, C, L>
@@ -118,20 +115,14 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         let (blocks, lists) = self.ends.both();
         let table = blocks.get_mut(families..)?;
         let list = list_at(lists, place);
-        // FNV-1a, a number at a time, and the golden ratio to spread what is left.
-        let hash = list
-            .iter()
-            .fold(0x811c_9dc5_u32, |hash, id| (hash ^ id.get() as u32).wrapping_mul(0x0100_0193));
-        let slots = table.len() * 8;
-        let home = (u64::from(hash.wrapping_mul(0x9e37_79b9)) * slots as u64) >> u32::BITS;
-        for slot in (home as usize..slots).chain(0..slots).take(PROBES) {
+        for slot in listing::probes(list, table.len() * 8) {
             let word = table.get_mut(slot / 8).map(C::words_mut)?.get_mut(slot % 8)?;
             match Content::of(*word) {
                 Content::List(0) => {
                     *word = Content::List(later).word();
                     return None;
                 }
-                Content::List(other) if is_equal(list_at(lists, other), list) => {
+                Content::List(other) if listing::is_equal(list_at(lists, other), list) => {
                     return Some(other);
                 }
                 _ => {}
@@ -139,10 +130,6 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
         }
         None
     }
-}
-
-fn is_equal<I: Id>(a: &[I], b: &[I]) -> bool {
-    a.iter().map(|id| id.get()).eq(b.iter().map(|id| id.get()))
 }
 
 #[cfg(test)]

@@ -29,11 +29,9 @@ pub(super) fn budget(options: &Compare, names: &[String]) -> anyhow::Result<()> 
         choices
     };
     println!("Speed as a share of that with unlimited memory, and the most that was taken while");
-    println!("building over what stays:");
-    println!(
-        "{:14} {:16} {:>12} {:>12} {:>12}",
-        "scene", "structure", "12 a shape", "24 a shape", "most/stays"
-    );
+    println!("building over what stays.\n");
+    println!("| scene | structure | 12 bytes a shape | 24 bytes a shape | most / stays |");
+    println!("|---|---|---:|---:|---:|");
     let mut shares = vec![(vec![], vec![]); 5];
     for name in names {
         let loaded = open(name)?;
@@ -49,7 +47,7 @@ pub(super) fn budget(options: &Compare, names: &[String]) -> anyhow::Result<()> 
                 .flatten()
                 .map(|it| it.memory.high_water_bytes as f64 / it.memory.used_bytes.max(1) as f64);
             println!(
-                "{name:14} {:16} {:10.0} % {:10.0} % {:12.2}",
+                "| {name} | {} | {:.0} % | {:.0} % | {:.2} |",
                 choices[i].name,
                 100.0 * of_all(few),
                 100.0 * of_all(more),
@@ -65,10 +63,11 @@ pub(super) fn budget(options: &Compare, names: &[String]) -> anyhow::Result<()> 
     }
     for (choice, (few, more)) in structures(0).iter().zip(&shares) {
         let (few, more) = (100.0 * geometric_mean(few), 100.0 * geometric_mean(more));
-        println!("{:14} {:16} {few:10.0} % {more:10.0} %", "mean", choice.name);
+        println!("| **mean** | {} | {few:.0} % | {more:.0} % | |", choice.name);
     }
-    println!();
-    println!("64 KiB for everything, scenes of some 1,000 shapes, speed as such a share:");
+    println!("\n64 KiB for everything, scenes of some 1,000 shapes, speed as such a share.\n");
+    let titles: Vec<_> = structures(0).into_iter().map(|choice| choice.name).collect();
+    println!("| scene | shapes | {} |\n|---|---:|{}", titles.join(" | "), "---:|".repeat(5));
     for name in names {
         let loaded = of_thousand(name)?;
         let choices: Vec<_> = [64 << 10, UNLIMITED].into_iter().flat_map(structures).collect();
@@ -76,10 +75,10 @@ pub(super) fn budget(options: &Compare, names: &[String]) -> anyhow::Result<()> 
         let shares: Vec<_> = (0..5)
             .map(|i| {
                 let share = seconds(&outcomes[5 + i]) / seconds(&outcomes[i]);
-                format!("{} {:.0} %", choices[i].name, 100.0 * share)
+                format!("{:.0} %", 100.0 * share)
             })
             .collect();
-        println!("{name:14} {:5} shapes: {}", loaded.description.items.len(), shares.join(", "));
+        println!("| {name} | {} | {} |", loaded.description.items.len(), shares.join(" | "));
     }
     Ok(())
 }

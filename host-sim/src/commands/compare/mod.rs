@@ -4,6 +4,7 @@
 mod budget;
 mod pairs;
 mod plan;
+mod size;
 
 use clap::Parser;
 use indicatif::ProgressBar;
@@ -64,13 +65,6 @@ fn seconds(outcome: &Outcome) -> f64 {
     outcome.as_ref().map_or(f64::INFINITY, |report| report.time.trace_cpu_s)
 }
 
-/// Tests and steps.
-fn work(outcome: &Outcome) -> f64 {
-    outcome
-        .as_ref()
-        .map_or(f64::INFINITY, |it| (it.work.primitive_tests + it.work.traversal_steps) as f64)
-}
-
 fn geometric_mean(values: &[f64]) -> f64 {
     (values.iter().map(|value| value.ln()).sum::<f64>() / values.len().max(1) as f64).exp()
 }
@@ -88,6 +82,7 @@ pub(super) fn run(options: &Compare) -> anyhow::Result<()> {
         Table::Lists => pairs::lists(options, &names),
         Table::Skips => pairs::skips(options, &names),
         Table::Stores => pairs::stores(options, &names),
+        Table::Size => size::size(options),
     }
 }
 

@@ -1,8 +1,8 @@
 //! One choice in parts of another.
 
-use kibiray::trace::{Secondary, Settings};
+use kibiray::trace::Settings;
 
-use super::{Choice, UNLIMITED, geometric_mean, measure, open, work};
+use super::{Choice, UNLIMITED, geometric_mean, measure, open};
 use crate::options::{AccelKind, Common, Compare, Growth, ListKind, Overlap, Skip, Store};
 use crate::report::Report;
 
@@ -13,11 +13,11 @@ fn pairs(
     title: &str,
     variants: &[(String, [Choice; 2])],
 ) -> anyhow::Result<()> {
-    println!("{title}");
+    println!("{title}\n");
     println!(
-        "{:14} {:24} {:>8} {:>8} {:>8} {:>10} {:>8} {:>8}",
-        "scene", "", "tests", "steps", "both", "references", "bytes", "time"
+        "| scene | | tests | steps | empty cells | tests + steps | references | bytes | time |"
     );
+    println!("|---|---|---:|---:|---:|---:|---:|---:|---:|");
     for (what, choices) in variants {
         let mut all = vec![];
         for name in names {
@@ -29,23 +29,29 @@ fn pairs(
             });
             let outcomes = measure(options, &loaded, &choices)?;
             let [Some(a), Some(b)] = &outcomes[..] else { continue };
-            let ratio = |f: &dyn Fn(&Report) -> f64| f(b) / f(a).max(1.0);
-            let both = work(&outcomes[1]) / work(&outcomes[0]).max(1.0);
-            let stopped = a.accel.stopped_by == Some("memory");
-            println!(
-                "{name:14} {what:24} {:8.3} {:8.3} {both:8.3} {:10.3} {:8.3} {:8.3}{}",
-                ratio(&|it| it.work.primitive_tests as f64),
-                ratio(&|it| it.work.traversal_steps as f64),
-                ratio(&|it| it.accel.references.unwrap_or(0) as f64),
-                ratio(&|it| it.memory.used_bytes as f64),
-                b.time.trace_cpu_s / a.time.trace_cpu_s,
-                if stopped { "  (stopped by memory)" } else { "" }
-            );
-            all.push((both, b.time.trace_cpu_s / a.time.trace_cpu_s));
+            let ratio = |f: &dyn Fn(&Report) -> f64| f(b) / f(a);
+            let shown = |x: f64| if x.is_finite() { format!("{x:.3}") } else { "–".into() };
+            let columns: [&dyn Fn(&Report) -> f64; 7] = [
+                &|it| it.work.primitive_tests as f64,
+                &|it| it.work.traversal_steps as f64,
+                &|it| it.work.empty_leaves_visited as f64,
+                &|it| (it.work.primitive_tests + it.work.traversal_steps) as f64,
+                &|it| it.accel.references.unwrap_or(0) as f64,
+                &|it| it.memory.used_bytes as f64,
+                &|it| it.time.trace_cpu_s,
+            ];
+            let cells: Vec<_> = columns.iter().map(|column| shown(ratio(column))).collect();
+            let stopped = if a.accel.stopped_by == Some("memory") { ", memory ends" } else { "" };
+            println!("| {name} | {what}{stopped} | {} |", cells.join(" | "));
+            all.push(columns.map(|column| ratio(column)));
         }
-        let mean =
-            |f: &dyn Fn(&(f64, f64)) -> f64| geometric_mean(&all.iter().map(f).collect::<Vec<_>>());
-        println!("{:14} {what:24} {:>26.3} {:>28.3}", "mean", mean(&|it| it.0), mean(&|it| it.1));
+        let mean = |column: usize| {
+            let ratios: Vec<_> = all.iter().map(|row| row[column]).collect();
+            let mean = geometric_mean(&ratios);
+            if ratios.is_empty() || !mean.is_normal() { "–".into() } else { format!("{mean:.3}") }
+        };
+        let means: Vec<_> = (0..7).map(mean).collect();
+        println!("| **mean** | {what} | {} |", means.join(" | "));
     }
     Ok(())
 }
@@ -92,20 +98,32 @@ pub(super) fn stores(options: &Compare, names: &[String]) -> anyhow::Result<()> 
 
 /// Equal lists stored once, and skipped as a whole.
 pub(super) fn lists(options: &Compare, names: &[String]) -> anyhow::Result<()> {
-    let of = |ram, lists: ListKind| octree(ram, |common| common.lists = Some(lists));
-    let variants = [(12, "12 bytes a shape"), (24, "24 bytes a shape"), (UNLIMITED, "unlimited")]
-        .map(|(ram, name)| {
-            (name.to_owned(), [ListKind::Own, ListKind::Shared].map(|it| of(ram, it)))
-        });
-    pairs(options, names, "Shared lists, in parts of every leaf its own:", &variants)
+    let structures = [(AccelKind::Grid, "grid"), (AccelKind::Octree, "octree")];
+    let budgets = [(12, "12 bytes a shape"), (24, "24 bytes a shape"), (UNLIMITED, "unlimited")];
+    let variants: Vec<_> = structures
+        .into_iter()
+        .flat_map(|structure| budgets.map(|budget| (structure, budget)))
+        .map(|((accel, structure), (ram, budget))| {
+            let of = |lists| {
+                Choice::new("", ram, |common| {
+                    common.accel = accel;
+                    common.lists = Some(lists);
+                })
+            };
+            (format!("{structure}, {budget}"), [ListKind::Own, ListKind::Shared].map(of))
+        })
+        .collect();
+    pairs(options, names, "Shared lists, in parts of every cell its own:", &variants)
 }
 
 pub(super) fn skips(options: &Compare, names: &[String]) -> anyhow::Result<()> {
     let auto = |common: &mut Common| common.accel = AccelKind::Auto;
     let grid = |common: &mut Common| common.accel = AccelKind::Grid;
-    let shared = |common: &mut Common| {
-        common.accel = AccelKind::Octree;
-        common.lists = Some(ListKind::Shared);
+    let shared = |accel| {
+        move |common: &mut Common| {
+            common.accel = accel;
+            common.lists = Some(ListKind::Shared);
+        }
     };
     let pair = |ram, on: &dyn Fn(&mut Common), skip| {
         [vec![], vec![skip]].map(|no_skip| {
@@ -113,11 +131,7 @@ pub(super) fn skips(options: &Compare, names: &[String]) -> anyhow::Result<()> {
                 on(common);
                 common.no_skip = no_skip;
             });
-            let all = &choice.common.no_skip;
-            if all.contains(&Skip::Contribution) {
-                choice.settings.secondary = Secondary::All;
-            }
-            choice.settings.shadow_cache = !all.contains(&Skip::Occluder);
+            choice.settings = choice.common.settings();
             choice
         })
     };
@@ -127,11 +141,17 @@ pub(super) fn skips(options: &Compare, names: &[String]) -> anyhow::Result<()> {
         ("contribution", pair(256 << 10, &auto, Skip::Contribution)),
         ("share below 1/512", faint),
         ("occluder", pair(256 << 10, &auto, Skip::Occluder)),
+        ("shadows", pair(256 << 10, &auto, Skip::Shadows)),
+        ("facing", pair(256 << 10, &auto, Skip::Facing)),
+        ("mirrors", pair(256 << 10, &auto, Skip::Mirrors)),
+        ("kinds", pair(256 << 10, &auto, Skip::Kinds)),
+        ("box, no memory", pair(0, &auto, Skip::Box)),
         ("empty, grid", pair(1 << 20, &grid, Skip::Empty)),
         ("huge, grid", pair(1 << 20, &grid, Skip::Huge)),
         ("cells, grid", pair(1 << 20, &grid, Skip::Cells)),
         ("tested, grid", pair(1 << 20, &grid, Skip::Tested)),
-        ("lists, octree", pair(1 << 20, &shared, Skip::Lists)),
+        ("lists, octree", pair(1 << 20, &shared(AccelKind::Octree), Skip::Lists)),
+        ("lists, grid", pair(1 << 20, &shared(AccelKind::Grid), Skip::Lists)),
     ]
     .map(|(name, choices)| (name.to_owned(), choices));
     pairs(options, names, "Without each way to skip work, in parts of with it:", &variants)

@@ -21,7 +21,7 @@ impl<'m> Small<'m> {
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         Ok(match kind {
-            accel::Kind::Naive => Self::Naive(Naive::new(scene)),
+            accel::Kind::Naive | accel::Kind::Clipped => Self::Naive(Naive::new(scene)),
             accel::Kind::Grid(cells) => Self::Grid(Grid::build(scene, cells, arena)?),
             accel::Kind::Octree(settings) => {
                 // The page has one order only, and lists of their own; the others are not linked.
