@@ -124,7 +124,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     /// The colour that a ray from the eye sees, not limited to 1.
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
         match usize::from(self.settings.max_depth) {
-            1 => self.color_within::<P, 0>(ray, probe),
+            1 => self.color_of_tree(ray, &mut Vec::<_, 0>::new(), probe),
             2..=USUAL_DEPTH => self.color_within::<P, USUAL_DEPTH>(ray, probe),
             _ => self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe),
         }
