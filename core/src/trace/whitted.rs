@@ -28,17 +28,24 @@ pub enum Secondary {
 }
 
 /// Work that is not done where it cannot change the picture; each kind can be done all the same, to
-/// see what leaving it out gains.
+/// see what leaving it out gains. Only with the feature `switches`: without it all is left out, and a
+/// build has no code for anything else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Skips {
-    /// Where a surface sends nothing of a light's back, neither matt nor as a highlight, no shadow ray
-    /// is shot to it.
+    /// From a surface that sends no light back, neither matt nor as a highlight, no shadow ray is shot.
     pub shadows: bool,
     /// In a scene where nothing mirrors or transmits, nothing is asked about rays that go on, and no
     /// stack is laid out for them.
     pub mirrors: bool,
     /// A surface that faces away from a light shoots no shadow ray to it.
     pub facing: bool,
+}
+
+impl Skips {
+    /// As far as there is a choice.
+    fn chosen(self) -> Self {
+        if cfg!(feature = "switches") { self } else { Self::default() }
+    }
 }
 
 impl Default for Skips {
@@ -110,7 +117,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         mailbox: M,
         settings: Settings<R>,
     ) -> Self {
-        let goes_on = !settings.skips.mirrors || scene.mirrors();
+        let goes_on = !settings.skips.chosen().mirrors || scene.mirrors();
         let max_depth = if goes_on { settings.max_depth.clamp(1, MOST_DEPTH) } else { 1 };
         Self {
             scene,
@@ -214,9 +221,8 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         let mut color = Vec3::<R>::default();
         for (i, light) in self.scene.lights().iter().enumerate() {
             let Settings { cutoff, skips, .. } = self.settings;
-            let Some(Towards { ray, distance, faces }) = arrival.towards(light, skips) else {
-                continue;
-            };
+            let towards = arrival.towards(light, skips.chosen());
+            let Some(Towards { ray, distance, faces }) = towards else { continue };
             let at_most = |light| arrival.at_most(&ray, light) * weight;
             let faint = faces && cutoff > R::ZERO && at_most(light) < cutoff;
             let blocked = !faint && self.is_blocked(i, &ray, distance, probe);
@@ -292,20 +298,15 @@ impl<R: Real> Arrival<'_, R> {
         if !faces && skips.facing {
             return None;
         }
-        let unit = towards.unit()?;
-        if skips.shadows && !self.reflects(unit) {
+        let Material { diffuse, specular, .. } = *self.material;
+        if skips.shadows && !(diffuse > R::ZERO || specular > R::ZERO) {
             return None;
         }
+        let unit = towards.unit()?;
         let Surface { reach, left, .. } = *self.surface;
         let ray = self.ray.turned(self.origin, unit, R::ONE, reach, left)?;
         let distance = R::distance_to(light.position, R::narrow(towards.dot(unit)));
         Some(Towards { ray, distance, faces })
-    }
-
-    /// Whether the surface sends anything back of light from a direction of length 1.
-    fn reflects(&self, towards: Vec3<R>) -> bool {
-        let Material { diffuse, specular, .. } = *self.material;
-        diffuse > R::ZERO || (specular > R::ZERO && self.mirrored.dot(towards) > R::Wide::default())
     }
 
     /// What a light adds at most, in any channel.
