@@ -111,6 +111,11 @@ impl<'m> Stamps<'m, u8> {
     pub fn short(shapes: usize, arena: &mut Arena<'m>) -> Result<Self, OutOfArena> {
         Self::cleared(shapes, arena)
     }
+
+    /// The bytes that [`Stamps::short`] takes.
+    pub fn short_footprint(shapes: usize) -> Footprint {
+        Footprint::of::<u8>(shapes)
+    }
 }
 
 impl<'m, W: Id> Stamps<'m, W> {
@@ -287,7 +292,9 @@ mod tests {
     #[test]
     fn short_stamps_survive_it_too() {
         let mut block = Block([0xff; 1024]);
-        let mut mailbox = Stamps::short(3, &mut Arena::new(&mut block.0)).unwrap();
+        let mut arena = Arena::new(&mut block.0);
+        let mut mailbox = Stamps::short(3, &mut arena).unwrap();
+        assert_eq!(arena.used(), Stamps::short_footprint(3).kept);
         mailbox.next_ray();
         assert!(mailbox.admit(1));
         for ray in 0..1000 {
