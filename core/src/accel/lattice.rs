@@ -69,7 +69,8 @@ impl<R: Real> Lattice<R> {
     }
 
     /// A ray's way along an axis, from where it enters the box to where it leaves it.
-    #[inline(always)]
+    // Modules of WebAssembly are to be small.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     pub(crate) fn way(&self, ray: &Ray<R>, axis: Axis) -> Way<R> {
         let ([nx, ny, nz], [cx, cy, cz]) = (self.count, &self.cells);
         let (count, cells) = match axis {

@@ -144,7 +144,6 @@ impl<R: Real, T: Shape<R>> Shapes<R> for &[T] {
         self.get(id).is_none_or(|shape| shape.overlaps(cell))
     }
 
-    #[inline(always)]
     fn per_ray(&self, ray: &Ray<R>) -> T::PerRay {
         if self.is_empty() { T::PerRay::default() } else { T::per_ray(ray) }
     }
@@ -258,7 +257,6 @@ impl<R: Real, A: Shapes<R>, B: Shapes<R>> Shapes<R> for (A, B) {
         }
     }
 
-    #[inline(always)]
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {
         (self.0.per_ray(ray), self.1.per_ray(ray))
     }

@@ -47,7 +47,6 @@ impl<R: Real> Shapes<R> for Triangles<'_, R> {
         self.triangles.overlaps(id, cell)
     }
 
-    #[inline(always)]
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {
         self.triangles.per_ray(ray)
     }
@@ -166,7 +165,6 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
         self.chain().overlaps(id, cell)
     }
 
-    #[inline(always)]
     fn per_ray(&self, ray: &Ray<R>) -> Self::PerRay {
         self.chain().per_ray(ray)
     }
