@@ -37,10 +37,13 @@ pub enum Any<'m, R: Real> {
     /// A grid with more shapes.
     LargeGrid(Grid<'m, R, u32, u32>),
     /// A grid with shared lists, up to 65,535 shapes and references.
+    #[cfg(feature = "switches")]
     SmallShared(Grid<'m, R, u16, u16, true>),
     /// The same with more references.
+    #[cfg(feature = "switches")]
     Shared(Grid<'m, R, u16, u32, true>),
     /// The same with more shapes.
+    #[cfg(feature = "switches")]
     LargeShared(Grid<'m, R, u32, u32, true>),
     /// An octree.
     Octree(AnyOctree<'m, R>),
@@ -81,6 +84,7 @@ impl<'m, R: Real> Any<'m, R> {
         Ok(match kind {
             Kind::Naive => Self::Naive(Naive::new(scene)),
             Kind::Clipped => Self::Clipped(Clipped::new(scene)),
+            #[cfg(feature = "switches")]
             Kind::Grid(n) if n.shared => match width(shapes, grid::size(scene, n)) {
                 Width::Small => Self::SmallShared(Grid::build_shared(scene, n, arena)?),
                 Width::Medium => Self::Shared(Grid::build_shared(scene, n, arena)?),
@@ -144,8 +148,11 @@ impl<R: Real> Accel<R> for Any<'_, R> {
             Self::SmallGrid(grid) => grid.walk(ray, visitor),
             Self::Grid(grid) => grid.walk(ray, visitor),
             Self::LargeGrid(grid) => grid.walk(ray, visitor),
+            #[cfg(feature = "switches")]
             Self::SmallShared(grid) => grid.walk(ray, visitor),
+            #[cfg(feature = "switches")]
             Self::Shared(grid) => grid.walk(ray, visitor),
+            #[cfg(feature = "switches")]
             Self::LargeShared(grid) => grid.walk(ray, visitor),
             Self::Octree(octree) => octree.walk(ray, visitor),
             Self::Bvh(bvh) => bvh.walk(ray, visitor),

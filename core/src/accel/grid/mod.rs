@@ -50,7 +50,7 @@ pub struct Settings<L = ByBox> {
     /// Whether empty cells know how far it is to the next that is not: takes no memory, but time
     /// while building.
     pub macro_cells: bool,
-    /// Whether [`Any`](super::Any) shares equal lists. How much that saves is not known beforehand: a
+    /// Whether [`Any`](super::Any) shares equal lists, which it can with the feature `switches`. How much that saves is not known beforehand: a
     /// size is then what a build cannot exceed. See [`mailbox::Lists`](super::mailbox::Lists).
     pub shared: bool,
 }
