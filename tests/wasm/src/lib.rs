@@ -15,7 +15,7 @@ use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Crc32, Each, Row, Structure, Subject, answer};
 
 /// Bytes for the structure.
-const ARENA: usize = 44 * 1024;
+const ARENA: usize = 52 * 1024;
 
 /// The widest picture.
 const COLUMNS: usize = 320;
