@@ -70,8 +70,7 @@ pub struct Settings<R> {
     /// shadow, whichever it is.
     pub cutoff: R,
     /// Whether a shadow ray tries the shape first that blocked the last ray to that light, if it was
-    /// blocked. Pictures
-    /// are the same; the work of a pixel then depends on the pixels before.
+    /// blocked. Pictures are the same; the work of a pixel then depends on the pixels before.
     pub shadow_cache: bool,
     /// What is left out.
     pub skips: Skips,
