@@ -44,16 +44,20 @@ impl<R: Real> Ray<R> {
     pub fn new(origin: Vec3<R>, direction: Vec3<R>) -> Result<Self, NotARay> {
         let reach = origin.max_abs();
         let ray = if origin.is_finite() { Self::from(origin, direction, reach) } else { None };
-        Ok(Self { slack: R::ulps_at(R::SLACK, reach), ..ray.ok_or(NotARay)? })
+        match ray {
+            Some(ray) => Ok(ray.with_slack(R::ulps_at(R::SLACK, reach))),
+            None => Err(NotARay),
+        }
     }
 
     /// A ray from a point whose coordinates are at most `reach`; if one is infinite or not a number,
     /// then `reach` is, too. The scene that it is shot into gives it its slack.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn from(origin: Vec3<R>, direction: Vec3<R>, reach: R) -> Option<Self> {
         let squared = R::narrow(direction.dot(direction));
-        let ray = Self { origin, direction, squared, reach, slack: R::ZERO, left: Self::FREE };
-        ray.checked(R::is_ordinary(squared) && reach < R::INFINITY)
+        let is_ordinary = R::is_ordinary(squared) && reach < R::INFINITY;
+        let reach = checked(origin, direction, is_ordinary, reach)?;
+        Some(Self { origin, direction, squared, reach, slack: R::ZERO, left: Self::FREE })
     }
 
     /// Another ray of the same scene: from a point as in [`Ray::from`], its direction of the squared
@@ -67,20 +71,9 @@ impl<R: Real> Ray<R> {
         reach: R,
         left: u32,
     ) -> Option<Self> {
-        let ray = Self { origin, direction, squared, reach, slack: self.slack, left };
-        ray.checked(self.reach.max(reach) < R::INFINITY)
-    }
-
-    /// The ray stays in registers: a call that took or gave all of it would force it into memory.
-    #[inline(always)]
-    fn checked(mut self, ordinary: bool) -> Option<Self> {
-        if !ordinary {
-            if !is_extraordinary::<R>(self.origin, self.direction) {
-                return None;
-            }
-            self.reach = R::INFINITY;
-        }
-        Some(self)
+        let is_ordinary = self.reach.max(reach) < R::INFINITY;
+        let reach = checked(origin, direction, is_ordinary, reach)?;
+        Some(Self { origin, direction, squared, reach, slack: self.slack, left })
     }
 
     /// Where it starts.
@@ -145,10 +138,28 @@ impl<R: Real> Ray<R> {
     }
 }
 
-/// Whether it is a ray, though one to be scaled before anything is computed with it.
+/// How far away a ray starts that may not be ordinary: beyond everything if it is not, and nowhere if
+/// it is no ray. A number, not a ray: that would go through memory.
+#[inline(always)]
+fn checked<R: Real>(
+    origin: Vec3<R>,
+    direction: Vec3<R>,
+    is_ordinary: bool,
+    reach: R,
+) -> Option<R> {
+    if is_ordinary {
+        Some(reach)
+    } else {
+        is_extraordinary(origin.to_array(), direction.to_array()).then_some(R::INFINITY)
+    }
+}
+
+/// Whether it is a ray, though one to be scaled before anything is computed with it. Of copies: what
+/// is handed over has to be in memory.
 #[cold]
 #[inline(never)]
-fn is_extraordinary<R: Real>(origin: Vec3<R>, direction: Vec3<R>) -> bool {
+fn is_extraordinary<R: Real>(origin: [R; 3], direction: [R; 3]) -> bool {
+    let [origin, direction] = [origin, direction].map(Vec3::<R>::from_array);
     origin.is_finite() && direction.is_finite() && !direction.is_zero()
 }
 

@@ -27,13 +27,34 @@ impl<R: Real> Framing<R> {
         ray.reach() <= scene.far()
     }
 
-    /// Whether a ray certainly passes by all bounded shapes. Told from where it starts, however far
-    /// away that is: a point of it is off by three units in the last place of its distance at most.
-    /// Where numbers are exact they leave no room for that, and nothing is told.
+    /// Whether the line of a ray certainly passes by all bounded shapes. Told from where it starts,
+    /// however far away that is: a point of it is off by three units in the last place of its
+    /// distance at most. Where numbers are exact they leave no room for that, and nothing is told.
+    ///
+    /// S. Gottschalk, M. Lin, D. Manocha, "OBBTree: a hierarchical structure for rapid interference
+    /// detection", SIGGRAPH 1996: a line and a box are apart if they are so across one of the
+    /// products of the line's direction and the box's edges. No division, and it is right for lines
+    /// along axes as it stands. Its rounding errors are below 12 units in the last place of the
+    /// distances involved, doubled as they are here, of the 32 by which they are grown.
     #[inline(always)]
     pub(crate) fn passes_by<S: Shapes<R>>(scene: &Scene<'_, R, S>, ray: &Ray<R>) -> bool {
         let room = scene.bounds().grown(scene.pad() + R::ulps_at(8, ray.reach()));
-        !(R::EXACT || room.contains(ray.origin()) || meets(room, &Slopes::of(ray)))
+        if R::EXACT || room.contains(ray.origin()) {
+            return false;
+        }
+        let [x, y, z] = ray.direction().to_array();
+        let (ends, origin) = (room.lo + room.hi, ray.origin());
+        let [cx, cy, cz] = (ends - (origin + origin)).to_array();
+        let [ex, ey, ez] = room.size().to_array();
+        let apart = |(a, b): (R, R), (c, d): (R, R), (e, f): (R, R)| {
+            // Of what is smaller or greater than every number nothing is told.
+            let least = R::EPSILON * R::EPSILON * R::EPSILON * R::EPSILON * R::EPSILON;
+            let off = (a * d - b * c).abs();
+            off > e * d.abs() + f * c.abs() + least && off < R::INFINITY
+        };
+        apart((cx, cy), (x, y), (ex, ey))
+            || apart((cy, cz), (y, z), (ey, ez))
+            || apart((cz, cx), (z, x), (ez, ex))
     }
 
     #[cold]
