@@ -6,12 +6,15 @@ use crate::num::{Axis, Real, Reciprocal, Vec3, Vector};
 ///
 /// The direction keeps the length it is given; `t` counts in its lengths. A ray is always a ray:
 /// [`Ray::new`] refuses everything else, so no query has to ask again.
+// Both vectors begin where a register of four numbers does: what is copied by fours is waited for if
+// read across two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Ray<R: Real> {
     origin: Vec3<R>,
-    direction: Vec3<R>,
     /// The squared length of the direction.
     squared: R,
+    direction: Vec3<R>,
     /// At least the greatest coordinate of the origin; beyond everything for directions whose
     /// squares are nothing to compute with.
     reach: R,
@@ -133,8 +136,9 @@ impl<R: Real> Ray<R> {
     }
 
     /// The same ray with the slack of the scene it is shot into.
-    pub(crate) fn with_slack(self, slack: R) -> Self {
-        Self { slack, ..self }
+    pub(crate) fn with_slack(mut self, slack: R) -> Self {
+        self.slack = slack;
+        self
     }
 }
 
