@@ -89,6 +89,18 @@ impl<R: Real> Ray<R> {
         self.direction
     }
 
+    /// The origin's coordinate along an axis that is found out: one load.
+    #[inline(always)]
+    pub(crate) fn origin_along(&self, axis: Axis) -> R {
+        self.origin.pick(axis)
+    }
+
+    /// The direction's component along an axis that is found out: one load.
+    #[inline(always)]
+    pub(crate) fn direction_along(&self, axis: Axis) -> R {
+        self.direction.pick(axis)
+    }
+
     /// The distance within which a point of this ray cannot be told from its neighbours; a shape
     /// may claim a hit this far outside its box, and no further.
     pub fn slack(&self) -> R {

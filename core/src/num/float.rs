@@ -204,11 +204,13 @@ macro_rules! float {
                 // would come by less than a rounding error. So nothing is infinite, and where a ray
                 // stays between two sides it enters and leaves them far beyond both ends of the scene.
                 const STEEPEST: $f = 1.0 / ($f::EPSILON * $f::EPSILON);
-                let inverse = (1.0 / direction).abs();
-                // Neither is what is not a number.
+                let inverse = 1.0 / direction;
                 let inverse = if inverse < STEEPEST { inverse } else { STEEPEST };
-                let inverse = if direction < 0.0 { -inverse } else { inverse };
+                let inverse = if inverse > -STEEPEST { inverse } else { -STEEPEST };
                 Self { start: from * inverse, width: cells.width * inverse }
+            }
+            fn falls(&self) -> bool {
+                self.width < 0.0
             }
             fn never() -> Self {
                 Self { start: $f::INFINITY, width: 0.0 }

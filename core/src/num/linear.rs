@@ -41,6 +41,8 @@ pub trait Progress<R: Real>: Copy + Debug + Default {
     fn of(direction: R, from: R, cells: &Self::Cells, count: i32) -> Option<Self>;
     /// The same for any direction: where a ray hardly moves it meets each wall far away.
     fn steep(direction: R, from: R, cells: &Self::Cells) -> Self;
+    /// Whether walls of greater numbers come at smaller parameters.
+    fn falls(&self) -> bool;
     /// Every wall is infinitely far away.
     fn never() -> Self;
     /// Walls up to number `cell` have been passed for ever, those beyond it never will be.

@@ -145,13 +145,12 @@ pub struct Shear<R: Real> {
 impl<R: Real> Shear<R> {
     /// Three divisions; one, where they are dear.
     pub(crate) fn of(ray: &Ray<R>) -> Self {
-        let d = ray.direction();
-        let major = d.major_axis();
+        let major = ray.direction().major_axis();
         let (u, v) = major.others();
-        let along = d.along(major);
         let axes = [u, v, major];
-        let (slope, scale) = R::slopes([d.along(u), d.along(v)], along);
-        Self { axes, origin: axes.map(|axis| ray.origin().along(axis)), slope, scale }
+        let [du, dv, along] = axes.map(|axis| ray.direction_along(axis));
+        let (slope, scale) = R::slopes([du, dv], along);
+        Self { axes, origin: axes.map(|axis| ray.origin_along(axis)), slope, scale }
     }
 
     /// Where a point lies across the ray.

@@ -80,11 +80,11 @@ impl<R: Real> Units<R> {
     /// A ray seen along each of the three axes. Three divisions.
     pub(super) fn courses(&self, ray: &Ray<R>) -> [Course<R>; 3] {
         Axis::ALL.map(|axis| {
-            let d = ray.direction().along(axis);
-            let (lo, hi) = (axis.index(), 3 + axis.index());
-            let (near, far) = if d < R::ZERO { (hi, lo) } else { (lo, hi) };
             let from = self.origin.along(axis) - ray.origin().along(axis);
-            Course { units: R::Progress::steep(d, from, &self.cells), near, far }
+            let units = R::Progress::steep(ray.direction().along(axis), from, &self.cells);
+            let (lo, hi) = (axis.index(), 3 + axis.index());
+            let (near, far) = if units.falls() { (hi, lo) } else { (lo, hi) };
+            Course { units, near, far }
         })
     }
 }

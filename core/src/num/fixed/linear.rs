@@ -151,6 +151,10 @@ impl num::Progress<Fixed> for Progress {
         Self::with(Reciprocal::of(moving), from, cells)
     }
 
+    fn falls(&self) -> bool {
+        self.width < 0
+    }
+
     fn never() -> Self {
         Self { start: i64::MAX / 4, width: 0, shift: 2 }
     }
