@@ -33,7 +33,7 @@ use super::{Accel, Id, Visitor};
 use crate::geom::Ray;
 use crate::num::Real;
 use crate::probe::Probe;
-use node::{Node, Room, WIDTH, hits};
+use node::{Node, Room, WIDTH, hits, ids_of};
 use stack::{Pending, Stack};
 use units::Units;
 
@@ -83,11 +83,10 @@ impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
     #[inline(always)]
     fn child(&self, number: u32) -> Child<'m, I> {
         let (node, place) = (number as usize / WIDTH, number as usize % WIDTH);
-        let ends = self.nodes.get(node).map_or(&[0; WIDTH], |[.., ends]| ends);
-        let [first, next] = self.links.get(node).copied().unwrap_or([I::new(0); 2]);
-        let at = |place: usize| ends.get(place).copied().unwrap_or(0).into();
-        // It begins where the one before it ends.
-        let (begin, end): (usize, usize) = (at(place.wrapping_sub(1)), at(place));
+        let (Some(node), Some([first, next])) = (self.nodes.get(node), self.links.get(node)) else {
+            return Child::Leaf(&[]);
+        };
+        let (begin, end) = ids_of(node, place);
         if begin < end {
             let first = first.get();
             Child::Leaf(self.ids.get(first + begin..first + end).unwrap_or_default())

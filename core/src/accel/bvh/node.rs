@@ -45,6 +45,17 @@ pub(super) fn pack(children: [Bounds; WIDTH], ends: [u8; WIDTH]) -> Node {
     ]
 }
 
+/// Where the ids of a child begin and end, counted from where the node's begin.
+#[inline(always)]
+pub(super) fn ids_of(node: &Node, place: usize) -> (usize, usize) {
+    const ENDS: usize = (ROWS - 1) * WIDTH;
+    let bytes = node.as_flattened();
+    let at = |at: usize| bytes.get(at % (ROWS * WIDTH)).copied().unwrap_or(0).into();
+    // They begin where those of the one before it end. What that is not is read, too: no branch.
+    let before = at(ENDS + place - 1);
+    (if place > 0 { before } else { 0 }, at(ENDS + place))
+}
+
 /// Steps along an axis.
 #[derive(Clone, Copy)]
 struct Scale {
@@ -85,8 +96,7 @@ pub(super) fn hits<R: Real>(
     mut hit: impl FnMut(usize, R),
 ) {
     if FOURS {
-        clip(node, courses, start, limit, room);
-        let mut hits = u64::from_le_bytes(room.hits);
+        let mut hits = clip(node, courses, start, limit, &mut room.near);
         while hits != 0 {
             let place = hits.trailing_zeros() as usize / 8;
             hits &= hits - 1;
@@ -105,12 +115,8 @@ pub(super) fn hits<R: Real>(
 /// Room for what a ray's clipping finds out of the children of a node.
 #[derive(Default)]
 pub(super) struct Room<R> {
-    /// Their sides as parameters: entered and left along each axis.
-    sides: [[R; WIDTH]; 6],
     /// Where the ray enters their boxes.
     near: [R; WIDTH],
-    /// 1 if it does, else 0.
-    hits: [u8; WIDTH],
 }
 
 /// Where a ray enters the boxes of the eight children, if at all. A box that it passes by is left
@@ -124,26 +130,24 @@ fn clip<R: Real>(
     courses: &[Course<R>; 3],
     start: R,
     limit: R,
-    Room { sides: [x0, x1, y0, y1, z0, z1], near, hits }: &mut Room<R>,
-) {
-    let slabs = Slabs::all(node, courses);
-    for (slab, (near, far)) in
-        slabs.iter().zip([(&mut *x0, &mut *x1), (&mut *y0, &mut *y1), (&mut *z0, &mut *z1)])
-    {
-        slab.all_at(slab.near, near);
-        slab.all_at(slab.far, far);
-    }
+    near: &mut [R; WIDTH],
+) -> u64 {
+    let [x, y, z] = Slabs::all(node, courses);
+    let ([x0, y0, z0], [x1, y1, z1]) =
+        ([x.near, y.near, z.near].map(|a| a), [x.far, y.far, z.far]);
+    let mut hits = [0; WIDTH];
     // As a processor's instruction does; `Real::max` and `min` decide more than is needed here.
     let greater = |a: R, b: R| if a > b { a } else { b };
     let smaller = |a: R, b: R| if a < b { a } else { b };
     let nearest = x0.iter().zip(y0).zip(z0);
     let farthest = x1.iter().zip(y1).zip(z1);
-    let children = near.iter_mut().zip(hits).zip(nearest.zip(farthest));
+    let children = near.iter_mut().zip(&mut hits).zip(nearest.zip(farthest));
     for ((near, hit), (((x0, y0), z0), ((x1, y1), z1))) in children {
-        *near = greater(greater(*x0, *y0), greater(*z0, start));
-        let far = smaller(smaller(*x1, *y1), smaller(*z1, limit));
+        *near = greater(greater(x.at(*x0), y.at(*y0)), greater(z.at(*z0), start));
+        let far = smaller(smaller(x.at(*x1), y.at(*y1)), smaller(z.at(*z1), limit));
         *hit = u8::from(*near <= far);
     }
+    u64::from_le_bytes(hits)
 }
 
 /// The children's sides along one axis, seen by a ray.
