@@ -26,6 +26,9 @@ pub trait Visitor<R: Real> {
     /// What counts the work.
     type Probe: Probe;
 
+    /// Whether the first hit ends the walk, whichever it is.
+    const STOPS: bool = false;
+
     /// Where the walk begins.
     fn start(&self) -> R;
 
@@ -354,6 +357,8 @@ impl<R: Real, S: Shapes<R>, M: Mailbox, P: Probe, G: Goal<R>> Visitor<R>
     for Search<'_, R, S, M, P, G>
 {
     type Probe = P;
+
+    const STOPS: bool = G::STOPS;
 
     fn start(&self) -> R {
         self.min

@@ -157,12 +157,7 @@ impl<R: Real> Ray<R> {
 /// How far away a ray starts that may not be ordinary: beyond everything if it is not, and nowhere if
 /// it is no ray. A number, not a ray: that would go through memory.
 #[inline(always)]
-fn checked<R: Real>(
-    origin: Vec3<R>,
-    direction: Vec3<R>,
-    is_ordinary: bool,
-    reach: R,
-) -> Option<R> {
+fn checked<R: Real>(origin: Vec3<R>, direction: Vec3<R>, is_ordinary: bool, reach: R) -> Option<R> {
     if is_ordinary {
         Some(reach)
     } else {

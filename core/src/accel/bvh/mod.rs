@@ -33,7 +33,7 @@ use super::{Accel, Id, Visitor};
 use crate::geom::Ray;
 use crate::num::Real;
 use crate::probe::Probe;
-use node::{Node, Room, WIDTH, hits, ids_of};
+use node::{Node, WIDTH, hits, ids_of};
 use stack::{Pending, Stack};
 use units::Units;
 
@@ -98,8 +98,16 @@ impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
 
 impl<R: Real, I: Id> Accel<R> for Bvh<'_, R, I> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        if V::STOPS { self.to_any(ray, visitor) } else { self.to_nearest(ray, visitor) }
+    }
+}
+
+impl<R: Real, I: Id> Bvh<'_, R, I> {
+    /// From near to far.
+    #[inline(always)]
+    fn to_nearest<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let courses = self.units.courses(ray);
-        let (mut stack, mut room) = (Stack::new(), Room::default());
+        let (mut stack, mut near) = (Stack::new(), [R::ZERO; WIDTH]);
         let mut number = 0;
         // Every node is met once at most.
         for _ in 0..self.nodes.len() {
@@ -109,7 +117,7 @@ impl<R: Real, I: Id> Accel<R> for Bvh<'_, R, I> {
             let mut nearest: Option<Pending<R>> = None;
             let below = stack.len();
             let interval = (visitor.start(), visitor.limit());
-            hits(node, &courses, interval, &mut room, |place, t| {
+            hits(node, &courses, interval, &mut near, |place, t| {
                 let child = (t, (number * WIDTH + place) as u32);
                 nearest = match nearest {
                     Some(other) if other.0 <= t => {
@@ -132,14 +140,43 @@ impl<R: Real, I: Id> Accel<R> for Bvh<'_, R, I> {
                 }
                 match self.child(child) {
                     Child::Node(number) => break number,
-                    Child::Leaf(list) => {
-                        visitor.probe().leaf(list.is_empty());
-                        visitor.visit(list.iter().map(|id| id.get()));
-                    }
+                    Child::Leaf(list) => visit(list, visitor),
                 }
             };
         }
     }
+
+    /// In any order: leaves at once, which are not worth remembering.
+    #[inline(always)]
+    fn to_any<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        let courses = self.units.courses(ray);
+        let (mut stack, mut near) = (Stack::new(), [R::ZERO; WIDTH]);
+        let mut number = 0;
+        for _ in 0..self.nodes.len() {
+            let Some(node) = self.nodes.get(number) else { return };
+            visitor.probe().step();
+            let interval = (visitor.start(), visitor.limit());
+            hits(node, &courses, interval, &mut near, |place, t| {
+                match self.child((number * WIDTH + place) as u32) {
+                    Child::Node(number) => stack.push((t, number as u32)),
+                    Child::Leaf(list) if t <= visitor.limit() => visit(list, visitor),
+                    Child::Leaf(_) => {}
+                }
+            });
+            match stack.pop() {
+                // Otherwise something has been found.
+                Some((t, next)) if t <= visitor.limit() => number = next as usize,
+                _ => return,
+            }
+        }
+    }
+}
+
+/// Hands over the shapes of a leaf.
+#[inline(always)]
+fn visit<R: Real, I: Id>(list: &[I], visitor: &mut impl Visitor<R>) {
+    visitor.probe().leaf(list.is_empty());
+    visitor.visit(list.iter().map(|id| id.get()));
 }
 
 #[cfg(test)]

@@ -92,15 +92,20 @@ pub(super) fn hits<R: Real>(
     node: &Node,
     courses: &[Course<R>; 3],
     (start, limit): (R, R),
-    room: &mut Room<R>,
+    near: &mut [R; WIDTH],
     mut hit: impl FnMut(usize, R),
 ) {
     if FOURS {
-        let mut hits = clip(node, courses, start, limit, &mut room.near);
+        let mut hits = clip(node, courses, start, limit, near);
+        // One place after the other: processors foresee that, and go on with the child before they
+        // know that it is hit. From the number of zeros they would have to wait for it.
+        let mut place = 0;
         while hits != 0 {
-            let place = hits.trailing_zeros() as usize / 8;
-            hits &= hits - 1;
-            hit(place, room.near.get(place).copied().unwrap_or(R::ZERO));
+            if hits & 1 != 0 {
+                hit(place, near.get(place).copied().unwrap_or(R::ZERO));
+            }
+            place += 1;
+            hits >>= 8;
         }
     } else {
         let slabs = Slabs::all(node, courses);
@@ -112,18 +117,10 @@ pub(super) fn hits<R: Real>(
     }
 }
 
-/// Room for what a ray's clipping finds out of the children of a node.
-#[derive(Default)]
-pub(super) struct Room<R> {
-    /// Where the ray enters their boxes.
-    near: [R; WIDTH],
-}
-
-/// Where a ray enters the boxes of the eight children, if at all. A box that it passes by is left
-/// before it is entered.
+/// Where a ray enters the boxes of the eight children, and a byte for each: 1 if it does, else 0. A
+/// box that it passes by is left before it is entered.
 ///
-/// Not inlined, and numbers go to memory side by side: that makes compilers compute them side by
-/// side.
+/// Not inlined: that makes compilers compute the eight side by side.
 #[inline(never)]
 fn clip<R: Real>(
     node: &Node,
@@ -133,14 +130,12 @@ fn clip<R: Real>(
     near: &mut [R; WIDTH],
 ) -> u64 {
     let [x, y, z] = Slabs::all(node, courses);
-    let ([x0, y0, z0], [x1, y1, z1]) =
-        ([x.near, y.near, z.near].map(|a| a), [x.far, y.far, z.far]);
     let mut hits = [0; WIDTH];
     // As a processor's instruction does; `Real::max` and `min` decide more than is needed here.
     let greater = |a: R, b: R| if a > b { a } else { b };
     let smaller = |a: R, b: R| if a < b { a } else { b };
-    let nearest = x0.iter().zip(y0).zip(z0);
-    let farthest = x1.iter().zip(y1).zip(z1);
+    let nearest = x.near.iter().zip(y.near).zip(z.near);
+    let farthest = x.far.iter().zip(y.far).zip(z.far);
     let children = near.iter_mut().zip(&mut hits).zip(nearest.zip(farthest));
     for ((near, hit), (((x0, y0), z0), ((x1, y1), z1))) in children {
         *near = greater(greater(x.at(*x0), y.at(*y0)), greater(z.at(*z0), start));
@@ -185,14 +180,6 @@ impl<'n, R: Real> Slabs<'n, R> {
     #[inline(always)]
     fn at(&self, side: u8) -> R {
         self.steps.at(side.into())
-    }
-
-    /// All sides as parameters.
-    #[inline(always)]
-    fn all_at(&self, sides: &[u8; WIDTH], at: &mut [R; WIDTH]) {
-        for (at, side) in at.iter_mut().zip(sides) {
-            *at = self.at(*side);
-        }
     }
 }
 

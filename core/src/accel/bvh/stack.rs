@@ -6,7 +6,7 @@ use crate::num::Real;
 use heapless::Vec;
 
 /// A child still to be looked at: where the ray enters its box; its node times [`WIDTH`] plus its
-/// place there.
+/// place there, or its own number if it can only be a node.
 pub(super) type Pending<R> = (R, u32);
 
 /// Every level leaves all but one of a node's children behind.
@@ -28,11 +28,17 @@ impl<R: Real> Stack<R> {
         self.pending.len()
     }
 
+    /// Puts a child onto the stack.
+    #[inline(always)]
+    pub(super) fn push(&mut self, child: Pending<R>) {
+        let _ = self.pending.push(child);
+    }
+
     /// Puts a child onto the stack, above those that are nearer, but for the first `below`.
     #[inline(always)]
     pub(super) fn insert(&mut self, below: usize, child: Pending<R>) {
         let mut at = self.pending.len();
-        let _ = self.pending.push(child);
+        self.push(child);
         while at > below {
             match self.pending.get_mut(at - 1..=at) {
                 Some([a, b]) if a.0 < child.0 => (*a, *b) = (*b, *a),
