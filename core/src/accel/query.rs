@@ -129,13 +129,7 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     if FOURS && !A::HANDS_OVER_ALL && unbounded.is_empty() && Framing::passes_by(scene, ray) {
         return (goal, interval.max);
     }
-    // A copy: that stays in registers, what a pointer leads to would not.
-    let mut ray = ray.with_slack(scene.slack());
-    let (mut interval, mut near) = (interval, true);
-    if !Framing::is_needless(scene, &ray) {
-        Framing { ray, interval, near, .. } = Framing::of(scene, ray, interval);
-    }
-    let (ray, min, limit) = (&ray, interval.min, interval.max.next_down());
+    let (ref ray, min, limit, near) = framed(scene, ray, interval);
     let per_ray = shapes.per_ray(ray);
     let mut search =
         Search { line: Line { shapes, ray, per_ray: &per_ray }, min, limit, mailbox, probe, goal };
@@ -155,6 +149,23 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
         accel.walk(ray, &mut search);
     }
     (search.goal, search.limit)
+}
+
+/// The ray as it is traced, its interval with the greatest number that belongs to it, and whether it
+/// comes near the bounded shapes. A copy: that stays in registers, what a pointer leads to would not.
+#[inline(always)]
+fn framed<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    ray: &Ray<R>,
+    interval: Interval<R>,
+) -> (Ray<R>, R, R, bool) {
+    let (ray, min, limit, near) = if Framing::is_needless(scene, ray) {
+        (*ray, interval.min, interval.max.next_down(), true)
+    } else {
+        let Framing { ray, interval, near, .. } = Framing::of(scene, *ray, interval);
+        (ray, interval.min, interval.max.next_down(), near)
+    };
+    (ray.with_slack(scene.slack()), min, limit, near)
 }
 
 /// What a query looks for.

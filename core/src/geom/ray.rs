@@ -1,6 +1,6 @@
 //! Rays, and what a box test wants to know of them.
 
-use crate::num::{Axis, Real, Reciprocal, Vec3, Vector};
+use crate::num::{Axis, FOURS, Real, Reciprocal, Vec3, Vector};
 
 /// A half-line: the points `origin + t * direction`, `t >= 0`.
 ///
@@ -89,16 +89,15 @@ impl<R: Real> Ray<R> {
         self.direction
     }
 
-    /// The origin's coordinate along an axis that is found out: one load.
+    /// The coordinate of the origin and the component of the direction along an axis that is found
+    /// out: loads where a branch may be costly, else a branch that leaves the ray in registers.
     #[inline(always)]
-    pub(crate) fn origin_along(&self, axis: Axis) -> R {
-        self.origin.pick(axis)
-    }
-
-    /// The direction's component along an axis that is found out: one load.
-    #[inline(always)]
-    pub(crate) fn direction_along(&self, axis: Axis) -> R {
-        self.direction.pick(axis)
+    pub(crate) fn along(&self, axis: Axis) -> (R, R) {
+        if FOURS {
+            (self.origin.pick(axis), self.direction.pick(axis))
+        } else {
+            (self.origin.along(axis), self.direction.along(axis))
+        }
     }
 
     /// The distance within which a point of this ray cannot be told from its neighbours; a shape

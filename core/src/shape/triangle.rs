@@ -148,9 +148,9 @@ impl<R: Real> Shear<R> {
         let major = ray.direction().major_axis();
         let (u, v) = major.others();
         let axes = [u, v, major];
-        let [du, dv, along] = axes.map(|axis| ray.direction_along(axis));
+        let [(x, du), (y, dv), (z, along)] = axes.map(|axis| ray.along(axis));
         let (slope, scale) = R::slopes([du, dv], along);
-        Self { axes, origin: axes.map(|axis| ray.origin_along(axis)), slope, scale }
+        Self { axes, origin: [x, y, z], slope, scale }
     }
 
     /// Where a point lies across the ray.
