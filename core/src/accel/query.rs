@@ -77,11 +77,7 @@ pub trait Accel<R: Real> {
         if id == Nearest::NONE {
             return None;
         }
-        let t = if as_asked {
-            local
-        } else {
-            Framing::of(scene, *ray, interval).restore(interval, local)
-        };
+        let t = if as_asked { local } else { Framing::restored(scene, ray, interval, local) };
         Some(Hit { t, id, local, as_asked })
     }
 
@@ -142,7 +138,7 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
         search.test(id);
     }
     if S::UNBOUNDED && !A::HANDS_OVER_ALL && !unbounded.is_empty() && !search.is_over() {
-        search.visit_range(unbounded);
+        search.visit_unbounded(unbounded);
     }
     if (near || A::HANDS_OVER_ALL) && !search.is_over() {
         search.mailbox.next_ray();
@@ -162,7 +158,7 @@ fn framed<R: Real, S: Shapes<R>>(
     let (ray, min, limit, near) = if Framing::is_needless(scene, ray) {
         (*ray, interval.min, interval.max.next_down(), true)
     } else {
-        let Framing { ray, interval, near, .. } = Framing::of(scene, *ray, interval);
+        let Framing { ray, interval, near, .. } = Framing::of(scene, ray, interval);
         (ray, interval.min, interval.max.next_down(), near)
     };
     (ray.with_slack(scene.slack()), min, limit, near)
@@ -350,6 +346,16 @@ impl<R: Real, S: Shapes<R>, M, P: Probe, G: Goal<R>> Search<'_, R, S, M, P, G> {
     /// Whether nothing is left to look for; also for intervals that contain nothing.
     fn is_over(&self) -> bool {
         !(self.limit > self.min)
+    }
+
+    /// Tests those that no structure knows of. Apart, for the room on the stack that tests of many
+    /// kinds take together.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn visit_unbounded(&mut self, ids: Range<usize>)
+    where
+        M: Mailbox,
+    {
+        self.visit_range(ids);
     }
 
     /// Tests a shape; whether nothing is left to look for.

@@ -61,7 +61,7 @@ impl<R: Real> Framing<R> {
     #[inline(never)]
     pub(crate) fn of<S: Shapes<R>>(
         scene: &Scene<'_, R, S>,
-        ray: Ray<R>,
+        ray: &Ray<R>,
         asked: Interval<R>,
     ) -> Self {
         let (ray, far) = (ray.with_slack(scene.slack()), scene.far());
@@ -83,11 +83,11 @@ impl<R: Real> Framing<R> {
         let scaled = |origin: Vec3<R>| Ray::from(origin, direction, origin.max_abs());
         if origin.max_abs() > far {
             let around = scene.bounds().grown(far);
-            let line = scaled(origin).unwrap_or(ray);
-            let slopes = Slopes::of(&line);
+            framing.ray = scaled(origin).unwrap_or(ray);
+            let slopes = Slopes::of(&framing.ray);
             match slopes.clip(around.lo, around.hi, -R::MAX, R::MAX) {
                 Some((enter, _)) => {
-                    origin = line.at(enter);
+                    origin = framing.ray.at(enter);
                     let Interval { min, max } = framing.interval;
                     let less = |t: R| if t.is_finite() { t - enter } else { t };
                     framing.interval = Interval::new(less(min), less(max));
@@ -103,8 +103,26 @@ impl<R: Real> Framing<R> {
         framing
     }
 
+    /// The ray as it is traced.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn traced<S: Shapes<R>>(scene: &Scene<'_, R, S>, ray: &Ray<R>) -> Ray<R> {
+        Self::of(scene, ray, Interval::RAY).ray
+    }
+
     /// A parameter of the traced ray as one of the ray that was asked for.
-    pub(crate) fn restore(&self, asked: Interval<R>, t: R) -> R {
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn restored<S: Shapes<R>>(
+        scene: &Scene<'_, R, S>,
+        ray: &Ray<R>,
+        asked: Interval<R>,
+        t: R,
+    ) -> R {
+        Self::of(scene, ray, asked).restore(asked, t)
+    }
+
+    fn restore(&self, asked: Interval<R>, t: R) -> R {
         let t = (t + self.shift).ldexp(self.exponent);
         t.clamp(asked.min.next_up(), asked.max.next_down())
     }

@@ -16,7 +16,7 @@ pub use shapes::Shapes;
 pub use solids::{Solids, Triangles};
 
 use crate::accel::Hit;
-use crate::geom::{Aabb, Interval, NotARay, Ray};
+use crate::geom::{Aabb, NotARay, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::shape::ShapeError;
 
@@ -209,27 +209,25 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
     /// The surface where a ray hit a shape; `None` where a normal cannot be told. The hit is one of
     /// that ray in this scene.
     pub fn surface(&self, ray: &Ray<R>, hit: &Hit<R>) -> Option<Surface<R>> {
-        let framed;
-        let ray = if hit.as_asked {
-            ray
-        } else {
-            framed = Framing::of(self, *ray, Interval::RAY).ray;
-            &framed
-        };
         // As it was when it hit.
-        let own;
-        let ray = if ray.slack() == self.slack() {
-            ray
+        let traced;
+        let ray = if !hit.as_asked {
+            traced = Framing::traced(self, ray);
+            &traced
+        } else if ray.slack() != self.slack() {
+            traced = ray.with_slack(self.slack());
+            &traced
         } else {
-            own = ray.with_slack(self.slack());
-            &own
+            ray
         };
         let (t, id) = (hit.local, hit.id);
         let d = ray.direction();
         let outside = self.shapes.normal(id, ray, t).unit()?;
         let front = outside.dot(d) <= R::Wide::default();
         let normal = if front { outside } else { -outside };
-        let shading = match self.shapes.shading_normal(id, ray, t).and_then(Vec3::<R>::unit) {
+        let interpolated = self.shapes.shading_normal(id, ray, t).and_then(Vec3::<R>::unit);
+        let smooth = interpolated.is_some();
+        let shading = match interpolated {
             // A vertex normal may face away near a silhouette; light would come through.
             Some(n) if n.dot(normal) < R::Wide::default() => -n,
             Some(n) => n,
@@ -241,7 +239,8 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         let error = R::ulps_at(R::POINT_ERROR, computed_from);
         let flat = S::FLAT && self.shapes.is_flat(id);
         let left = u32::try_from(id).ok().filter(|_| flat).unwrap_or(Ray::<R>::FREE);
-        Some(Surface { point, normal, shading, front, error, reach: reach + error, left })
+        let reach = reach + error;
+        Some(Surface { point, normal, shading, front, error, reach, left, smooth })
     }
 }
 
@@ -265,6 +264,8 @@ pub struct Surface<R: Real> {
     pub(crate) reach: R,
     /// The flat shape that this is the surface of.
     pub(crate) left: u32,
+    /// Whether `shading` is another one than `normal`.
+    pub(crate) smooth: bool,
 }
 
 impl<R: Real> Surface<R> {

@@ -100,6 +100,13 @@ impl<R: Real> Hull<R> {
         if self.is_close(ray.at(t), ray.slack()) {
             return Some(t);
         }
+        self.settle_far(ray, t)
+    }
+
+    /// Apart, for the room it takes on the stack.
+    #[cold]
+    #[inline(never)]
+    fn settle_far(&self, ray: &Ray<R>, t: R) -> Option<R> {
         settle_between(ray, self.bounds(), self.slabs(), t)
     }
 

@@ -154,6 +154,7 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
         (t > min && t <= max && self.surrounds(shear)).then_some(t)
     }
 
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {
         self.normal
     }

@@ -104,6 +104,13 @@ impl<R: Real> Triangle<R> {
         if (ray.at(t) - on_triangle).max_abs() <= ray.slack() {
             return Some(t);
         }
+        self.settle_thin(ray, t)
+    }
+
+    /// Where the weights are mostly rounding. Apart, for the room it takes on the stack.
+    #[cold]
+    #[inline(never)]
+    fn settle_thin(&self, ray: &Ray<R>, t: R) -> Option<R> {
         settle_between(ray, self.bounds(), flat::<R>(self.corners), t)
     }
 

@@ -4,7 +4,7 @@
 //! surfaces of the Neutral File Format. The tree of rays is walked depth first on a stack of fixed
 //! size; what a ray adds to the pixel is known when it is spawned, so nothing has to return.
 
-use crate::accel::{Accel, Mailbox};
+use crate::accel::{Accel, Hit, Mailbox};
 use crate::geom::{Interval, Ray};
 use crate::num::{Real, Vec3, Vector};
 use crate::probe::{Probe, RayKind};
@@ -101,12 +101,15 @@ pub struct Tracer<'a, R: Real, S, A, M> {
     accel: &'a A,
     mailbox: M,
     settings: Settings<R>,
-    /// What blocked the last ray to each of the first lights.
-    blockers: [Option<usize>; CACHED_LIGHTS],
+    /// What blocked the last ray to each of the first lights; [`UNBLOCKED`] where nothing did.
+    blockers: [u32; CACHED_LIGHTS],
 }
 
 /// Lights with a shadow cache.
 const CACHED_LIGHTS: usize = 8;
+
+/// An id that no shape has.
+const UNBLOCKED: u32 = u32::MAX;
 
 impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> {
     /// A tracer over a structure and a mailbox made for that scene.
@@ -123,14 +126,14 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
             accel,
             mailbox,
             settings: Settings { max_depth, ..settings },
-            blockers: [None; CACHED_LIGHTS],
+            blockers: [UNBLOCKED; CACHED_LIGHTS],
         }
     }
 
     /// The colour that a ray from the eye sees, not limited to 1.
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
         match usize::from(self.settings.max_depth) {
-            1 => self.color_of_tree(ray, &mut Vec::<_, 0>::new(), probe),
+            1 => self.color_within::<P, 1>(ray, probe),
             2..=USUAL_DEPTH => self.color_within::<P, USUAL_DEPTH>(ray, probe),
             _ => self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe),
         }
@@ -146,73 +149,104 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         self.color_of_tree(ray, &mut Vec::<_, DEPTH>::new(), probe)
     }
 
-    /// The sum over a tree of rays.
+    /// The sum over a tree of rays; there has to be room for one.
     #[inline(never)]
     fn color_of_tree<P: Probe>(
         &mut self,
         ray: Ray<R>,
-        later: &mut VecView<Pending<R>>,
+        rays: &mut VecView<Pending<R>>,
         probe: &mut P,
     ) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
-        let mut now = Pending { ray: ray.with_slack(self.scene.slack()), weight: R::ONE, depth: 1 };
-        loop {
+        let ray = ray.with_slack(self.scene.slack());
+        let _ = rays.push(Pending { ray, weight: R::ONE, depth: 1 });
+        // The last one is under way, and lies where it is: a copy would take as much again.
+        while let Some(now) = rays.last() {
             let weight = now.weight;
-            let (seen, goes_on) = self.follow(&mut now, later, probe);
+            let seen = match self.meet(now, probe) {
+                Some(hit) => self.follow(rays, hit, probe),
+                None => {
+                    rays.pop();
+                    self.scene.background()
+                }
+            };
             color = R::at(color, seen, weight);
-            if !goes_on {
-                let Some(next) = later.pop() else { return color };
-                now = next;
-            }
         }
+        color
     }
 
-    /// What a ray sees, without what the rays that go on from there will see. Of these, one takes
-    /// the ray's place, if there is any; if there is another, it is left for later.
-    ///
-    /// A function of its own, so that its variables lie together and not beyond the pending rays:
-    /// small processors reach a few hundred bytes of stack at once.
-    #[inline(never)]
-    fn follow<P: Probe>(
-        &mut self,
-        now: &mut Pending<R>,
-        later: &mut VecView<Pending<R>>,
-        probe: &mut P,
-    ) -> (Vec3<R>, bool) {
-        let scene = self.scene;
-        let hit = self.accel.nearest(scene, &now.ray, Interval::RAY, &mut self.mailbox, probe);
+    // What follows are functions of their own, so that what one of them needs is not on the stack
+    // while another one is under way, and so that their variables lie together and not beyond the
+    // pending rays: small processors reach a few hundred bytes of stack at once.
+    // Where there is enough of it the calls are saved.
+
+    /// Where a ray meets something.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn meet<P: Probe>(&mut self, now: &Pending<R>, probe: &mut P) -> Option<Hit<R>> {
+        let (scene, mailbox) = (self.scene, &mut self.mailbox);
+        let hit = self.accel.nearest(scene, &now.ray, Interval::RAY, mailbox, probe);
         let kind = if now.depth == 1 { RayKind::Primary } else { RayKind::Secondary };
         probe.ray(kind, hit.is_some());
-        let Some(hit) = hit else { return (scene.background(), false) };
+        hit
+    }
+
+    /// What the last one of some rays sees where it meets something, without what the rays that go on
+    /// from there will see. These take its place.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn follow<P: Probe>(
+        &mut self,
+        rays: &mut VecView<Pending<R>>,
+        hit: Hit<R>,
+        probe: &mut P,
+    ) -> Vec3<R> {
+        let scene = self.scene;
+        let Some(now) = rays.last() else { return Vec3::<R>::default() };
         let Some(surface) = scene.surface(&now.ray, &hit) else {
-            return (scene.background(), false);
+            rays.pop();
+            return scene.background();
         };
         let material = scene.material(hit.id);
         let origin = R::at(surface.point, surface.normal, surface.error);
-        let mirrored = if material.specular > R::ZERO || material.transmission > R::ZERO {
-            mirrored(now.ray.direction(), &surface)
-        } else {
-            Vec3::<R>::default()
-        };
+        let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
+        let mirrored =
+            if mirrors { mirrored(now.ray.direction(), &surface) } else { Vec3::<R>::default() };
         let arrival = Arrival { ray: &now.ray, surface: &surface, material, origin, mirrored };
         let color = self.local(&arrival, now.weight, probe);
-        if now.depth >= self.settings.max_depth {
-            return (color, false);
+        if mirrors && now.depth < self.settings.max_depth {
+            self.go_on(rays, &surface, material, origin, mirrored);
+        } else {
+            rays.pop();
         }
-        let (through, mirrored) = arrival.spawn(self.settings.secondary);
-        let (weight, depth, cutoff) = (now.weight, now.depth + 1, self.settings.cutoff);
-        let seen = |(_, share): &(Ray<R>, R)| weight * *share >= cutoff;
-        let (through, mirrored) = (through.filter(seen), mirrored.filter(seen));
-        let pending = |(ray, share)| Pending { ray, weight: weight * share, depth };
-        match (through, mirrored) {
-            (None, None) => return (color, false),
-            (Some(only), None) | (None, Some(only)) => *now = pending(only),
-            (Some(through), Some(mirrored)) => {
-                *now = pending(through);
-                let _ = later.push(pending(mirrored));
+        color
+    }
+
+    /// Puts those rays in the place of the last one that go on from where it has arrived.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn go_on(
+        &self,
+        rays: &mut VecView<Pending<R>>,
+        surface: &Surface<R>,
+        material: &Material<R>,
+        origin: Vec3<R>,
+        mirrored: Vec3<R>,
+    ) {
+        let Some(Pending { ray, weight, depth }) = rays.last() else { return };
+        let arrival = Arrival { ray, surface, material, origin, mirrored };
+        let Settings { secondary, cutoff, .. } = self.settings;
+        let (through, mirrored) = arrival.spawn(secondary);
+        let (before, depth) = (*weight, depth + 1);
+        rays.pop();
+        let mut push = |spawned: Spawned<R>| {
+            let Some((ray, share)) = spawned else { return };
+            let weight = before * share;
+            if weight >= cutoff {
+                // Never refused: each level leaves at most one ray behind.
+                let _ = rays.push(Pending { ray, weight, depth });
             }
-        }
-        (color, true)
+        };
+        // That which goes through is the next one.
+        push(mirrored);
+        push(through);
     }
 
     /// Light that comes straight from the lamps.
@@ -237,13 +271,14 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     /// Shoots a shadow ray to a light.
     #[inline]
     fn is_blocked<P: Probe>(&mut self, i: usize, ray: &Ray<R>, light: R, probe: &mut P) -> bool {
-        let guess = self.blockers.get(i).copied().flatten();
+        let guess = self.blockers.get(i).copied().filter(|id| *id != UNBLOCKED);
         let between = Interval::new(R::ZERO, light);
         let (scene, mailbox) = (self.scene, &mut self.mailbox);
-        let blocker = self.accel.blocker(scene, ray, between, guess, mailbox, probe);
+        let blocker =
+            self.accel.blocker(scene, ray, between, guess.map(|id| id as usize), mailbox, probe);
         let blocked = blocker.is_some();
         if let (true, Some(last)) = (self.settings.shadow_cache, self.blockers.get_mut(i)) {
-            *last = blocker;
+            *last = blocker.and_then(|id| u32::try_from(id).ok()).unwrap_or(UNBLOCKED);
         }
         probe.ray(RayKind::Shadow, blocked);
         blocked
@@ -257,7 +292,7 @@ fn mirrored<R: Real>(direction: Vec3<R>, surface: &Surface<R>) -> Vec3<R> {
         R::at(direction, n, -(along + along))
     };
     let mirrored = mirror(surface.shading);
-    if mirrored.dot(surface.normal) < R::Wide::default() {
+    if surface.smooth && mirrored.dot(surface.normal) < R::Wide::default() {
         // An interpolated normal would send the ray into the surface.
         return mirror(surface.normal);
     }
@@ -293,7 +328,8 @@ impl<R: Real> Arrival<'_, R> {
         let towards = R::towards(self.origin, light.position);
         let zero = R::Wide::default();
         let faces = |n: Vec3<R>| n.dot(towards) > zero;
-        let faces = faces(self.surface.shading) && faces(self.surface.normal);
+        let Surface { normal, shading, smooth, .. } = *self.surface;
+        let faces = faces(normal) && (!smooth || faces(shading));
         if !faces && skips.facing {
             return None;
         }
@@ -356,7 +392,7 @@ impl<R: Real> Arrival<'_, R> {
     /// The ray behind the surface, after Snell; `None` for total reflection.
     #[inline(never)]
     fn through(&self) -> Option<Ray<R>> {
-        let Surface { point, normal, shading, front, error, reach, left } = *self.surface;
+        let Surface { point, normal, shading, front, error, reach, left, .. } = *self.surface;
         let origin = point - normal * error;
         let index = self.material.index;
         if !(index > R::ZERO) || index == R::ONE {

@@ -6,7 +6,22 @@ use kibiray::accel::octree::StoppedBy;
 use kibiray::memory::Part;
 use semihosting::process;
 
-/// What is known of the arena after a run.
+/// What is known once the structure is built.
+#[derive(Clone, Copy, Debug)]
+pub struct Building<'a> {
+    /// The subject's name.
+    pub scene: &'static str,
+    /// The structure's.
+    pub structure: &'static str,
+    /// Why the octree is not finer.
+    pub stopped_by: StoppedBy,
+    /// Memory.
+    pub arena: ArenaUse<'a>,
+    /// Instructions for it.
+    pub instructions: u64,
+}
+
+/// What is known of the arena after that.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ArenaUse<'a> {
     /// Its bytes.
@@ -19,25 +34,13 @@ pub struct ArenaUse<'a> {
     pub parts: &'a [Part],
 }
 
-/// The results of a run.
-#[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
-    /// The subject's name.
-    pub scene: &'static str,
-    /// The structure's.
-    pub structure: &'static str,
+/// What is known after the run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tracing {
     /// Checksum of the picture.
     pub image_crc32: u32,
     /// Checksum of the answers to ray queries.
     pub hits_crc32: u32,
-    /// Why the octree is not finer.
-    pub stopped_by: StoppedBy,
-    /// Memory.
-    pub arena: ArenaUse<'a>,
-    /// Most bytes of stack.
-    pub stack: usize,
-    /// Instructions for the building of the structure.
-    pub build: u64,
     /// Instructions per pixel, rounded down.
     pub per_pixel: u64,
     /// Instructions per ray for its nearest hit, rounded down.
@@ -47,6 +50,7 @@ pub struct Report<'a> {
 }
 
 /// A JSON object that is being written.
+#[derive(Debug)]
 struct Object(Console);
 
 impl Object {
@@ -81,40 +85,67 @@ impl Object {
     }
 }
 
-/// Prints the line.
-#[inline(never)]
-pub fn print(report: &Report<'_>) {
-    let mut json = begin(report.scene);
-    json.text("structure", report.structure);
-    json.sum("image_crc32", report.image_crc32);
-    json.sum("hits_crc32", report.hits_crc32);
-    let stopped_by = match report.stopped_by {
-        StoppedBy::Done => "done",
-        StoppedBy::Level => "level",
-        StoppedBy::Memory => "memory",
-    };
-    json.text("stopped_by", stopped_by);
-    json.key("arena");
-    json.0.text("{\"capacity\":");
-    json.0.number(report.arena.capacity as u64);
-    json.number("used", report.arena.used as u64);
-    json.number("high_water", report.arena.high_water as u64);
-    json.key("parts");
-    let mut before = "[{\"name\":";
-    for part in report.arena.parts {
-        json.0.text(before);
-        json.quoted(part.name);
-        json.number("bytes", part.bytes as u64);
-        before = "},{\"name\":";
+/// The line, of which the first part is printed. In two parts, so that what is only to be told of
+/// the building does not stay on the stack.
+#[derive(Debug)]
+pub struct Report(Object);
+
+impl Report {
+    /// Prints the first part.
+    #[inline(never)]
+    pub fn begin(building: &Building<'_>) -> Self {
+        let mut json = begin(building.scene);
+        json.text("structure", building.structure);
+        let stopped_by = match building.stopped_by {
+            StoppedBy::Done => "done",
+            StoppedBy::Level => "level",
+            StoppedBy::Memory => "memory",
+        };
+        json.text("stopped_by", stopped_by);
+        json.key("arena");
+        let arena = &building.arena;
+        json.0.text("{\"capacity\":");
+        json.0.number(arena.capacity as u64);
+        json.number("used", arena.used as u64);
+        json.number("high_water", arena.high_water as u64);
+        json.key("parts");
+        let mut before = "[{\"name\":";
+        for part in arena.parts {
+            json.0.text(before);
+            json.quoted(part.name);
+            json.number("bytes", part.bytes as u64);
+            before = "},{\"name\":";
+        }
+        json.0.text(if arena.parts.is_empty() { "[]}" } else { "}]}" });
+        json.number("instr_build", building.instructions);
+        Self(json)
     }
-    json.0.text(if report.arena.parts.is_empty() { "[]}" } else { "}]}" });
-    json.number("stack_bytes", report.stack as u64);
-    json.number("stack_capacity", stack::capacity() as u64);
-    json.number("instr_per_pixel", report.per_pixel);
-    json.number("instr_per_nearest", report.per_nearest);
-    json.number("instr_per_any", report.per_any);
-    json.number("instr_build", report.build);
-    json.0.text("}\n");
+
+    /// Prints the rest.
+    #[inline(never)]
+    pub fn end(&mut self, tracing: &Tracing) {
+        let stack = match stack::checked() {
+            Ok(bytes) => bytes,
+            Err(what) => self.fail(what),
+        };
+        let json = &mut self.0;
+        json.sum("image_crc32", tracing.image_crc32);
+        json.sum("hits_crc32", tracing.hits_crc32);
+        json.number("stack_bytes", stack as u64);
+        json.number("stack_capacity", stack::capacity() as u64);
+        json.number("instr_per_pixel", tracing.per_pixel);
+        json.number("instr_per_nearest", tracing.per_nearest);
+        json.number("instr_per_any", tracing.per_any);
+        json.0.text("}\n");
+    }
+
+    /// Prints what went wrong instead, and ends the program.
+    #[inline(never)]
+    pub fn fail(&mut self, what: &str) -> ! {
+        self.0.text("error", what);
+        self.0.0.text("}\n");
+        process::exit(1)
+    }
 }
 
 fn begin(scene: &str) -> Object {

@@ -2,14 +2,14 @@
 
 use crate::block::Block;
 use crate::clock::{self, Stopwatch};
-use crate::report::{ArenaUse, Report};
+use crate::report::{ArenaUse, Building, Report, Tracing};
 use crate::{report, stack};
 use kibiray::accel::octree::StoppedBy;
 use kibiray::accel::{Accel, Mailbox, mailbox};
 use kibiray::geom::Interval;
 use kibiray::memory::Arena;
 use kibiray::num::Real;
-use kibiray::scene::{Camera, Scene, SceneError, Shapes};
+use kibiray::scene::{Camera, Scene, SceneError, Shapes, ViewError};
 use kibiray::trace::{Renderer, Settings, Tracer};
 use kibiray_scenes::{Crc32, Plain, Row, Structure, Subject, answer};
 use semihosting::process;
@@ -18,7 +18,7 @@ use semihosting::process;
 pub fn run<const ARENA: usize, const ROW: usize>(
     arena: &'static Block<ARENA>,
     row: &'static Block<ROW>,
-    work: impl FnOnce(&mut [u8], &mut [u8]) -> Result<(), &'static str>,
+    work: impl FnOnce(&'static mut [u8], &mut [u8]) -> Result<(), &'static str>,
 ) -> ! {
     clock::start();
     let (Some(arena), Some(row)) = (arena.take(), row.take()) else {
@@ -36,54 +36,85 @@ pub fn run<const ARENA: usize, const ROW: usize>(
 /// # Errors
 /// What went wrong.
 #[inline(never)]
-pub fn subject<S: Subject>(memory: &mut [u8], row: &mut [u8]) -> Result<(), &'static str> {
-    let mut arena = Arena::new(memory);
-    let scene = scene::<S>().map_err(|_| "the scene is refused")?;
-    let mut build = Stopwatch::default();
-    let accel =
-        build.time(|| S::Structure::build(&scene, &mut arena)).map_err(|_| "no structure")?;
-    let mailbox = S::Structure::mailbox(scene.shapes().count(), &mut arena);
-    let mailbox = mailbox.map_err(|_| "no mailbox")?;
-    let image = picture::<S>(&scene, &accel, row)?;
-    let hits = queries::<S>(&scene, &accel, mailbox);
-    print::<S>(&arena, S::Structure::stopped_by(&accel), build, image, hits)
+pub fn subject<S: Subject>(memory: &'static mut [u8], row: &mut [u8]) -> Result<(), &'static str> {
+    // Borrowed where they are: what is taken out of a result is there twice.
+    let scene = scene::<S>();
+    let Ok(scene) = &scene else { return Err("the scene is refused") };
+    let Built { accel, mailbox, report } = &mut built::<S>(scene, memory)?;
+    match traced::<S>(scene, accel, mailbox, row) {
+        Ok(tracing) => report.end(&tracing),
+        Err(what) => report.fail(what),
+    }
+    Ok(())
 }
 
-// The next three have frames of their own, so that what they need for a moment does not stay on the
-// stack while rays are traced.
+// Every phase has a frame of its own, so that what it needs for a moment does not stay on the stack
+// while rays are traced.
 
 #[inline(never)]
 fn scene<S: Subject>() -> Result<Scene<'static, S::Number, S::Shapes>, SceneError> {
     S::scene()
 }
 
+/// What is there after the building; the arena, all handed out, is not needed any more.
+struct Built<A, M> {
+    accel: A,
+    mailbox: M,
+    report: Report,
+}
+
+/// What a subject's structure and mailbox are.
+type BuiltOf<S> = Built<
+    <<S as Subject>::Structure as Structure<<S as Subject>::Number>>::Built<'static>,
+    <<S as Subject>::Structure as Structure<<S as Subject>::Number>>::Mailbox<'static>,
+>;
+
 #[inline(never)]
-fn print<S: Subject>(
-    arena: &Arena<'_>,
-    stopped_by: StoppedBy,
-    build: Stopwatch,
-    (image_crc32, per_pixel): (u32, u64),
-    (hits_crc32, per_nearest, per_any): (u32, u64, u64),
-) -> Result<(), &'static str> {
-    report::print(&Report {
+fn built<S: Subject>(
+    scene: &Scene<'_, S::Number, S::Shapes>,
+    memory: &'static mut [u8],
+) -> Result<BuiltOf<S>, &'static str> {
+    let mut arena = Arena::new(memory);
+    let mut build = Stopwatch::default();
+    let accel =
+        build.time(|| S::Structure::build(scene, &mut arena)).map_err(|_| "no structure")?;
+    let mailbox = S::Structure::mailbox(scene.shapes().count(), &mut arena);
+    let mailbox = mailbox.map_err(|_| "no mailbox")?;
+    let report = Report::begin(&Building {
         scene: S::NAME,
         structure: S::Structure::NAME,
-        image_crc32,
-        hits_crc32,
-        stopped_by,
+        stopped_by: S::Structure::stopped_by(&accel),
         arena: ArenaUse {
             capacity: arena.capacity(),
             used: arena.used(),
             high_water: arena.high_water(),
             parts: arena.parts(),
         },
-        stack: stack::checked()?,
-        build: build.instructions(),
-        per_pixel,
-        per_nearest,
-        per_any,
+        instructions: build.instructions(),
     });
-    Ok(())
+    Ok(Built { accel, mailbox, report })
+}
+
+fn traced<S: Subject>(
+    scene: &Scene<'_, S::Number, S::Shapes>,
+    accel: &impl Accel<S::Number>,
+    mailbox: &mut impl Mailbox,
+    row: &mut [u8],
+) -> Result<Tracing, &'static str> {
+    let (image_crc32, per_pixel) = picture::<S>(scene, accel, row)?;
+    let (hits_crc32, per_nearest, per_any) = queries::<S>(scene, accel, mailbox);
+    Ok(Tracing { image_crc32, hits_crc32, per_pixel, per_nearest, per_any })
+}
+
+#[inline(never)]
+fn renderer<'a, S: Subject, A: Accel<S::Number>>(
+    scene: &'a Scene<'a, S::Number, S::Shapes>,
+    accel: &'a A,
+) -> Result<Renderer<'a, S::Number, S::Shapes, A, mailbox::Off>, ViewError> {
+    let (width, height) = S::SIZE;
+    let camera = Camera::new(&S::view(), S::Number::fraction(width.into(), height.into()))?;
+    let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
+    Ok(Renderer::new(Tracer::new(scene, accel, mailbox::Off, settings), camera, width, height))
 }
 
 /// The checksum of a subject's picture, and instructions a pixel. The clock stands while a row is
@@ -94,15 +125,12 @@ fn picture<S: Subject>(
     accel: &impl Accel<S::Number>,
     row: &mut [u8],
 ) -> Result<(u32, u64), &'static str> {
-    let (width, height) = S::SIZE;
+    let (_, height) = S::SIZE;
     if height == 0 {
         return Ok((0, 0));
     }
-    let camera = Camera::new(&S::view(), S::Number::fraction(width.into(), height.into()));
-    let camera = camera.map_err(|_| "no camera")?;
-    let settings = Settings { max_depth: S::DEPTH, ..Settings::default() };
-    let tracer = Tracer::new(scene, accel, mailbox::Off, settings);
-    let mut renderer = Renderer::new(tracer, camera, width, height);
+    let mut renderer = renderer::<S, _>(scene, accel);
+    let Ok(renderer) = &mut renderer else { return Err("no camera") };
     let mut row = Row::new(row, height);
     let (mut sum, mut render) = (Crc32::new(), Stopwatch::default());
     for _ in 0..height {
@@ -119,15 +147,13 @@ fn picture<S: Subject>(
 fn queries<S: Subject>(
     scene: &Scene<'_, S::Number, S::Shapes>,
     accel: &impl Accel<S::Number>,
-    mut mailbox: impl Mailbox,
+    mailbox: &mut impl Mailbox,
 ) -> (u32, u64, u64) {
     let (mut sum, mut rays) = (Crc32::new(), 0_u64);
     let (mut nearest, mut any) = (Stopwatch::default(), Stopwatch::default());
     for shot in S::rays() {
-        let hit =
-            nearest.time(|| accel.nearest(scene, &shot.ray, Interval::RAY, &mut mailbox, &mut ()));
-        let blocked =
-            any.time(|| accel.occluded(scene, &shot.ray, shot.between, &mut mailbox, &mut ()));
+        let hit = nearest.time(|| accel.nearest(scene, &shot.ray, Interval::RAY, mailbox, &mut ()));
+        let blocked = any.time(|| accel.occluded(scene, &shot.ray, shot.between, mailbox, &mut ()));
         sum.update(&answer(hit, blocked));
         rays += 1;
     }
@@ -152,18 +178,17 @@ pub fn plain(_memory: &mut [u8], row: &mut [u8]) -> Result<(), &'static str> {
         render.time(|| picture.row(y, row));
         sum.update(row);
     }
-    report::print(&Report {
+    let mut report = Report::begin(&Building {
         scene: "card_plain",
         structure: "plain",
-        image_crc32: sum.finish(),
-        stack: stack::checked()?,
-        per_pixel: per_pixel(render, Plain::SIZE),
-        hits_crc32: 0,
         stopped_by: StoppedBy::Done,
         arena: ArenaUse::default(),
-        build: 0,
-        per_nearest: 0,
-        per_any: 0,
+        instructions: 0,
+    });
+    report.end(&Tracing {
+        image_crc32: sum.finish(),
+        per_pixel: per_pixel(render, Plain::SIZE),
+        ..Tracing::default()
     });
     Ok(())
 }

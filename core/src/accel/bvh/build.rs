@@ -88,55 +88,40 @@ struct Builder<'b, 's, R: Real, S, I> {
 
 impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
     /// Makes all nodes; gives the number of levels.
+    #[inline(never)]
     fn grow(&mut self, nodes: &mut [Node], links: &mut [[I; 2]]) -> usize {
         let all = Group { first: 0, count: self.ids.len(), nodes: nodes.len() };
         if let Some(root) = nodes.first_mut() {
             *root = all.wait();
         }
         let (mut level, mut level_end, mut next) = (0, 0, 1);
+        let mut groups = Groups::new();
         for (number, link) in links.iter_mut().enumerate() {
             if number == level_end {
                 level += 1;
                 level_end = next;
             }
             let Some(group) = nodes.get(number).map(Group::waiting) else { break };
-            let mut groups = self.divide(group, level);
+            self.divide(group, level, &mut groups);
             self.leaves_first(&mut groups);
-
             let leaves = groups.iter().filter(|(child, _)| child.nodes == 0).count();
             *link = [I::new(group.first), I::new(next + WIDTH - leaves)];
-            let (mut boxes, mut ends, mut end) = ([Bounds::EMPTY; WIDTH], [0; WIDTH], 0);
-            let mut children = groups.iter();
-            for (place, place_end) in boxes.iter_mut().zip(&mut ends) {
-                if let Some((child, bounds)) = children.next() {
-                    *place = *bounds;
-                    if child.nodes == 0 {
-                        end += child.count;
-                    } else if let Some(waiting) = nodes.get_mut(next) {
-                        *waiting = child.wait();
-                        next += 1;
-                    }
-                }
-                *place_end = end as u8;
-            }
-            if let Some(node) = nodes.get_mut(number) {
-                *node = pack(boxes, ends);
-            }
+            next = lay(&groups, nodes, number, next);
         }
         level
     }
 
     /// The children of a node on a level; the root's is 1.
-    fn divide(&mut self, node: Group, level: usize) -> Groups {
+    fn divide(&mut self, node: Group, level: usize, groups: &mut Groups) {
         let below = node.nodes.saturating_sub(1);
         // What is left below must not become too deep, however unequal the groups are.
         if level + levels_below(node.count) <= LEVELS {
-            let mut groups = self.cut(node);
-            if deal(&mut groups, below) {
-                return groups;
+            self.cut(node, groups);
+            if deal(groups, below) {
+                return;
             }
         }
-        let mut groups = Groups::new();
+        groups.clear();
         let part = node.count.div_ceil(WIDTH);
         let end = node.first + node.count;
         let mut first = node.first;
@@ -145,13 +130,12 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
             let _ = groups.push((Group { first, count, nodes: 0 }, self.bounds_of(first, count)));
             first += count;
         }
-        deal(&mut groups, below);
-        groups
+        deal(groups, below);
     }
 
     /// Eight groups with small surfaces; fewer when there are not so many shapes.
-    fn cut(&mut self, node: Group) -> Groups {
-        let mut groups = Groups::new();
+    fn cut(&mut self, node: Group, groups: &mut Groups) {
+        groups.clear();
         let whole = Group { nodes: 0, ..node };
         let _ = groups.push((whole, self.bounds_of(node.first, node.count)));
         while groups.len() < WIDTH {
@@ -169,7 +153,6 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
                 }
             }
         }
-        groups
     }
 
     /// Cuts a group in two.
@@ -234,6 +217,29 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         let ids = self.ids.get(first..first + count).unwrap_or_default();
         ids.iter().fold(Bounds::EMPTY, |all, id| all.union(self.bounds(*id)))
     }
+}
+
+/// Makes a node of its groups; those that get nodes wait from `next` on. Gives the one after them.
+#[inline(never)]
+fn lay(groups: &Groups, nodes: &mut [Node], number: usize, mut next: usize) -> usize {
+    let (mut boxes, mut ends, mut end) = ([Bounds::EMPTY; WIDTH], [0; WIDTH], 0);
+    let mut children = groups.iter();
+    for (place, place_end) in boxes.iter_mut().zip(&mut ends) {
+        if let Some((child, bounds)) = children.next() {
+            *place = *bounds;
+            if child.nodes == 0 {
+                end += child.count;
+            } else if let Some(waiting) = nodes.get_mut(next) {
+                *waiting = child.wait();
+                next += 1;
+            }
+        }
+        *place_end = end as u8;
+    }
+    if let Some(node) = nodes.get_mut(number) {
+        *node = pack(boxes, ends);
+    }
+    next
 }
 
 /// Deals nodes out; false when some group would be a leaf with too many shapes.

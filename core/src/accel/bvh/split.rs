@@ -50,6 +50,7 @@ impl Bin {
 
 /// The cut with the least sum of surface times number on both sides; `None` when all boxes have the
 /// same middle.
+#[inline(never)]
 pub(super) fn best_cut(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cut> {
     let (mut from, mut to) = ([u32::MAX; 3], [0; 3]);
     for bounds in boxes.clone() {
@@ -73,26 +74,47 @@ pub(super) fn best_cut(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cu
             }
         }
     }
-    let mut best: Option<(u64, Cut)> = None;
-    for (axis, ((bins, from), shift)) in bins.iter().zip(from).zip(shifts).enumerate() {
-        let mut above = [Bin::EMPTY; BINS];
-        let mut sum = Bin::EMPTY;
-        for (above, bin) in above.iter_mut().zip(bins).rev() {
-            sum = sum.add(*bin);
-            *above = sum;
-        }
-        let mut below = Bin::EMPTY;
-        for ((number, bin), above) in (1..).zip(bins).zip(above.iter().skip(1)) {
-            below = below.add(*bin);
-            if below.count == 0 || above.count == 0 {
-                continue;
-            }
-            let cost = below.cost() + above.cost();
-            if best.is_none_or(|(least, _)| cost < least) {
-                let (below, above) = (below.bounds, above.bounds);
-                best = Some((cost, Cut { axis, from, shift, bin: number, below, above }));
-            }
+    let mut best: Option<(u64, usize, usize)> = None;
+    for (axis, bins) in bins.iter().enumerate() {
+        if let Some((cost, bin)) = best_bin(bins)
+            && best.is_none_or(|(least, ..)| cost < least)
+        {
+            best = Some((cost, axis, bin));
         }
     }
-    best.map(|(_, cut)| cut)
+    let (_, axis, bin) = best?;
+    let (below, above) = bins.get(axis)?.split_at_checked(bin)?;
+    let all = |bins: &[Bin]| bins.iter().fold(Bounds::EMPTY, |all, bin| all.union(bin.bounds));
+    Some(Cut {
+        axis,
+        from: from.get(axis).copied()?,
+        shift: shifts.get(axis).copied()?,
+        bin: bin as u32,
+        below: all(below),
+        above: all(above),
+    })
+}
+
+/// The least sum along an axis, and the first bin above that cut. Apart, as what it needs is not
+/// needed while the boxes of shapes are computed: the stack is deepest there.
+#[inline(never)]
+fn best_bin(bins: &[Bin; BINS]) -> Option<(u64, usize)> {
+    let (mut above, mut costs) = (Bin::EMPTY, [0; BINS]);
+    for (cost, bin) in costs.iter_mut().zip(bins).rev() {
+        above = above.add(*bin);
+        *cost = above.cost();
+    }
+    let (all, mut below) = (above.count, Bin::EMPTY);
+    let mut best: Option<(u64, usize)> = None;
+    for ((number, bin), above) in (1..).zip(bins).zip(costs.iter().skip(1)) {
+        below = below.add(*bin);
+        if below.count == 0 || below.count == all {
+            continue;
+        }
+        let cost = below.cost() + above;
+        if best.is_none_or(|(least, _)| cost < least) {
+            best = Some((cost, number));
+        }
+    }
+    best
 }
