@@ -99,17 +99,24 @@ pub(super) fn best_cut(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cu
 /// needed while the boxes of shapes are computed: the stack is deepest there.
 #[inline(never)]
 fn best_bin(bins: &[Bin; BINS]) -> Option<(u64, usize)> {
-    let (mut above, mut costs) = (Bin::EMPTY, [0; BINS]);
+    // Where nothing is added nothing changes: few shapes are in few bins.
+    let (mut above, mut cost_above, mut costs) = (Bin::EMPTY, 0, [0; BINS]);
     for (cost, bin) in costs.iter_mut().zip(bins).rev() {
-        above = above.add(*bin);
-        *cost = above.cost();
+        if bin.count > 0 {
+            above = above.add(*bin);
+            cost_above = above.cost();
+        }
+        *cost = cost_above;
     }
     let (all, mut below) = (above.count, Bin::EMPTY);
     let mut best: Option<(u64, usize)> = None;
     for ((number, bin), above) in (1..).zip(bins).zip(costs.iter().skip(1)) {
-        below = below.add(*bin);
-        if below.count == 0 || below.count == all {
+        if bin.count == 0 {
             continue;
+        }
+        below = below.add(*bin);
+        if below.count == all {
+            break;
         }
         let cost = below.cost() + above;
         if best.is_none_or(|(least, _)| cost < least) {
