@@ -14,9 +14,6 @@ use heapless::{Vec, VecView};
 /// The greatest depth of recursion; a pending ray takes 48 bytes in `f32`.
 pub const MOST_DEPTH: u8 = 16;
 
-/// Up to this depth the stack of pending rays is a small one.
-const USUAL_DEPTH: usize = 5;
-
 /// Which mirrored and refracted rays are shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Secondary {
@@ -132,9 +129,12 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 
     /// The colour that a ray from the eye sees, not limited to 1.
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
-        match usize::from(self.settings.max_depth) {
-            1 => self.color_within::<P, 1>(ray, probe),
-            2..=USUAL_DEPTH => self.color_within::<P, USUAL_DEPTH>(ray, probe),
+        match self.settings.max_depth {
+            0 | 1 => self.color_within::<P, 1>(ray, probe),
+            2 => self.color_within::<P, 2>(ray, probe),
+            3 => self.color_within::<P, 3>(ray, probe),
+            4 => self.color_within::<P, 4>(ray, probe),
+            5 => self.color_within::<P, 5>(ray, probe),
             _ => self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe),
         }
     }
@@ -146,20 +146,20 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         ray: Ray<R>,
         probe: &mut P,
     ) -> Vec3<R> {
-        self.color_of_tree(ray, &mut Vec::<_, DEPTH>::new(), probe)
+        let mut rays = Vec::<_, DEPTH>::new();
+        let ray = ray.with_slack(self.scene.slack());
+        let _ = rays.push(Pending { ray, weight: R::ONE, depth: 1 });
+        self.color_of_trees(&mut rays, probe)
     }
 
-    /// The sum over a tree of rays; there has to be room for one.
+    /// The sum over the trees of some rays.
     #[inline(never)]
-    fn color_of_tree<P: Probe>(
+    fn color_of_trees<P: Probe>(
         &mut self,
-        ray: Ray<R>,
         rays: &mut VecView<Pending<R>>,
         probe: &mut P,
     ) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
-        let ray = ray.with_slack(self.scene.slack());
-        let _ = rays.push(Pending { ray, weight: R::ONE, depth: 1 });
         // The last one is under way, and lies where it is: a copy would take as much again.
         while let Some(now) = rays.last() {
             let weight = now.weight;
@@ -201,7 +201,9 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     ) -> Vec3<R> {
         let scene = self.scene;
         let Some(now) = rays.last() else { return Vec3::<R>::default() };
-        let Some(surface) = scene.surface(&now.ray, &hit) else {
+        // Borrowed where it is: taken out of the option it would be there twice.
+        let surface = surface(scene, &now.ray, &hit);
+        let Some(surface) = &surface else {
             rays.pop();
             return scene.background();
         };
@@ -209,11 +211,11 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         let origin = R::at(surface.point, surface.normal, surface.error);
         let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
         let mirrored =
-            if mirrors { mirrored(now.ray.direction(), &surface) } else { Vec3::<R>::default() };
-        let arrival = Arrival { ray: &now.ray, surface: &surface, material, origin, mirrored };
+            if mirrors { mirrored(now.ray.direction(), surface) } else { Vec3::<R>::default() };
+        let arrival = Arrival { ray: &now.ray, surface, material, origin, mirrored };
         let color = self.local(&arrival, now.weight, probe);
         if mirrors && now.depth < self.settings.max_depth {
-            self.go_on(rays, &surface, material, origin, mirrored);
+            self.go_on(rays, surface, material, origin, mirrored);
         } else {
             rays.pop();
         }
@@ -255,11 +257,11 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         for (i, light) in self.scene.lights().iter().enumerate() {
             let Settings { cutoff, skips, .. } = self.settings;
             let towards = arrival.towards(light, skips.chosen());
-            let Some(Towards { ray, distance, faces }) = towards else { continue };
-            let at_most = |light| arrival.at_most(&ray, light) * weight;
-            let faint = faces && cutoff > R::ZERO && at_most(light) < cutoff;
-            let blocked = !faint && self.is_blocked(i, &ray, distance, probe);
-            if blocked || !faces {
+            let Some(Towards { ray, distance, faces }) = &towards else { continue };
+            let at_most = |light| arrival.at_most(ray, light) * weight;
+            let faint = *faces && cutoff > R::ZERO && at_most(light) < cutoff;
+            let blocked = !faint && self.is_blocked(i, ray, *distance, probe);
+            if blocked || !*faces {
                 continue;
             }
             let light = if faint { light.color * R::HALF } else { light.color };
@@ -283,6 +285,15 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         probe.ray(RayKind::Shadow, blocked);
         blocked
     }
+}
+
+#[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
+fn surface<R: Real, S: Shapes<R>>(
+    scene: &Scene<'_, R, S>,
+    ray: &Ray<R>,
+    hit: &Hit<R>,
+) -> Option<Surface<R>> {
+    scene.surface(ray, hit)
 }
 
 /// A direction mirrored by a surface.
@@ -324,6 +335,7 @@ type Spawned<R> = Option<(Ray<R>, R)>;
 
 impl<R: Real> Arrival<'_, R> {
     /// The ray to a light; `None` where it can be left out.
+    #[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
     fn towards(&self, light: &Light<R>, skips: Skips) -> Option<Towards<R>> {
         let towards = R::towards(self.origin, light.position);
         let zero = R::Wide::default();
@@ -351,6 +363,7 @@ impl<R: Real> Arrival<'_, R> {
     }
 
     /// What the surface sends back of white light from a direction of length 1.
+    #[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
     fn reflected(&self, towards: Vec3<R>) -> Vec3<R> {
         let Material { diffuse, specular, shine, .. } = *self.material;
         let color = self.material.color_at(self.surface.point, self.surface.normal);

@@ -34,21 +34,6 @@ pub struct ArenaUse<'a> {
     pub parts: &'a [Part],
 }
 
-/// What is known after the run.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Tracing {
-    /// Checksum of the picture.
-    pub image_crc32: u32,
-    /// Checksum of the answers to ray queries.
-    pub hits_crc32: u32,
-    /// Instructions per pixel, rounded down.
-    pub per_pixel: u64,
-    /// Instructions per ray for its nearest hit, rounded down.
-    pub per_nearest: u64,
-    /// Instructions per ray for any hit, rounded down.
-    pub per_any: u64,
-}
-
 /// A JSON object that is being written.
 #[derive(Debug)]
 struct Object(Console);
@@ -85,8 +70,8 @@ impl Object {
     }
 }
 
-/// The line, of which the first part is printed. In two parts, so that what is only to be told of
-/// the building does not stay on the stack.
+/// The line, of which the first part is printed. It is printed as things come to be known, so that
+/// nothing stays on the stack only to be told.
 #[derive(Debug)]
 pub struct Report(Object);
 
@@ -121,22 +106,32 @@ impl Report {
         Self(json)
     }
 
-    /// Prints the rest.
+    /// Prints the checksum of the picture, and instructions per pixel, rounded down.
     #[inline(never)]
-    pub fn end(&mut self, tracing: &Tracing) {
+    pub fn picture(&mut self, crc32: u32, per_pixel: u64) {
+        self.0.sum("image_crc32", crc32);
+        self.0.number("instr_per_pixel", per_pixel);
+    }
+
+    /// Prints the checksum of the answers to ray queries, and instructions per ray for its nearest
+    /// hit and for any hit, rounded down.
+    #[inline(never)]
+    pub fn queries(&mut self, crc32: u32, per_nearest: u64, per_any: u64) {
+        self.0.sum("hits_crc32", crc32);
+        self.0.number("instr_per_nearest", per_nearest);
+        self.0.number("instr_per_any", per_any);
+    }
+
+    /// Prints the most bytes of stack, and the end.
+    #[inline(never)]
+    pub fn end(&mut self) {
         let stack = match stack::checked() {
             Ok(bytes) => bytes,
             Err(what) => self.fail(what),
         };
-        let json = &mut self.0;
-        json.sum("image_crc32", tracing.image_crc32);
-        json.sum("hits_crc32", tracing.hits_crc32);
-        json.number("stack_bytes", stack as u64);
-        json.number("stack_capacity", stack::capacity() as u64);
-        json.number("instr_per_pixel", tracing.per_pixel);
-        json.number("instr_per_nearest", tracing.per_nearest);
-        json.number("instr_per_any", tracing.per_any);
-        json.0.text("}\n");
+        self.0.number("stack_bytes", stack as u64);
+        self.0.number("stack_capacity", stack::capacity() as u64);
+        self.0.0.text("}\n");
     }
 
     /// Prints what went wrong instead, and ends the program.

@@ -2,7 +2,7 @@
 
 use crate::block::Block;
 use crate::clock::{self, Stopwatch};
-use crate::report::{ArenaUse, Building, Report, Tracing};
+use crate::report::{ArenaUse, Building, Report};
 use crate::{report, stack};
 use kibiray::accel::octree::StoppedBy;
 use kibiray::accel::{Accel, Mailbox, mailbox};
@@ -40,11 +40,16 @@ pub fn subject<S: Subject>(memory: &'static mut [u8], row: &mut [u8]) -> Result<
     // Borrowed where they are: what is taken out of a result is there twice.
     let scene = scene::<S>();
     let Ok(scene) = &scene else { return Err("the scene is refused") };
-    let Built { accel, mailbox, report } = &mut built::<S>(scene, memory)?;
-    match traced::<S>(scene, accel, mailbox, row) {
-        Ok(tracing) => report.end(&tracing),
-        Err(what) => report.fail(what),
+    let mut built = built::<S>(scene, memory);
+    let Built { accel, mailbox, report } = match &mut built {
+        Ok(built) => built,
+        Err(what) => return Err(what),
+    };
+    if let Err(what) = picture::<S>(scene, accel, row, report) {
+        report.fail(what);
     }
+    queries::<S>(scene, accel, mailbox, report);
+    report.end();
     Ok(())
 }
 
@@ -95,17 +100,6 @@ fn built<S: Subject>(
     Ok(Built { accel, mailbox, report })
 }
 
-fn traced<S: Subject>(
-    scene: &Scene<'_, S::Number, S::Shapes>,
-    accel: &impl Accel<S::Number>,
-    mailbox: &mut impl Mailbox,
-    row: &mut [u8],
-) -> Result<Tracing, &'static str> {
-    let (image_crc32, per_pixel) = picture::<S>(scene, accel, row)?;
-    let (hits_crc32, per_nearest, per_any) = queries::<S>(scene, accel, mailbox);
-    Ok(Tracing { image_crc32, hits_crc32, per_pixel, per_nearest, per_any })
-}
-
 #[inline(never)]
 fn renderer<'a, S: Subject, A: Accel<S::Number>>(
     scene: &'a Scene<'a, S::Number, S::Shapes>,
@@ -117,17 +111,19 @@ fn renderer<'a, S: Subject, A: Accel<S::Number>>(
     Ok(Renderer::new(Tracer::new(scene, accel, mailbox::Off, settings), camera, width, height))
 }
 
-/// The checksum of a subject's picture, and instructions a pixel. The clock stands while a row is
-/// summed up.
+/// Reports the checksum of a subject's picture, and instructions a pixel. The clock stands while a
+/// row is summed up.
 #[inline(never)]
 fn picture<S: Subject>(
     scene: &Scene<'_, S::Number, S::Shapes>,
     accel: &impl Accel<S::Number>,
     row: &mut [u8],
-) -> Result<(u32, u64), &'static str> {
+    report: &mut Report,
+) -> Result<(), &'static str> {
     let (_, height) = S::SIZE;
     if height == 0 {
-        return Ok((0, 0));
+        report.picture(0, 0);
+        return Ok(());
     }
     let mut renderer = renderer::<S, _>(scene, accel);
     let Ok(renderer) = &mut renderer else { return Err("no camera") };
@@ -138,17 +134,19 @@ fn picture<S: Subject>(
         drawn.map_err(|_| "rows out of order")?;
         sum.update(row.bytes());
     }
-    Ok((sum.finish(), per_pixel(render, S::SIZE)))
+    report.picture(sum.finish(), per_pixel(render, S::SIZE));
+    Ok(())
 }
 
-/// The checksum of the answers to a subject's queries, and instructions a ray for the nearest hit
-/// and for any.
+/// Reports the checksum of the answers to a subject's queries, and instructions a ray for the nearest
+/// hit and for any.
 #[inline(never)]
 fn queries<S: Subject>(
     scene: &Scene<'_, S::Number, S::Shapes>,
     accel: &impl Accel<S::Number>,
     mailbox: &mut impl Mailbox,
-) -> (u32, u64, u64) {
+    report: &mut Report,
+) {
     let (mut sum, mut rays) = (Crc32::new(), 0_u64);
     let (mut nearest, mut any) = (Stopwatch::default(), Stopwatch::default());
     for shot in S::rays() {
@@ -158,7 +156,7 @@ fn queries<S: Subject>(
         rays += 1;
     }
     let per_ray = |watch: Stopwatch| watch.instructions().checked_div(rays).unwrap_or(0);
-    (sum.finish(), per_ray(nearest), per_ray(any))
+    report.queries(sum.finish(), per_ray(nearest), per_ray(any));
 }
 
 fn per_pixel(watch: Stopwatch, (width, height): (u16, u16)) -> u64 {
@@ -185,10 +183,8 @@ pub fn plain(_memory: &mut [u8], row: &mut [u8]) -> Result<(), &'static str> {
         arena: ArenaUse::default(),
         instructions: 0,
     });
-    report.end(&Tracing {
-        image_crc32: sum.finish(),
-        per_pixel: per_pixel(render, Plain::SIZE),
-        ..Tracing::default()
-    });
+    report.picture(sum.finish(), per_pixel(render, Plain::SIZE));
+    report.queries(0, 0, 0);
+    report.end();
     Ok(())
 }

@@ -11,13 +11,14 @@
 
 use super::node::{Node, WIDTH, pack};
 use super::size::{footprint, least_below, levels_below, most_below, possible_nodes};
-use super::split::best_cut;
+use super::split::{Cut, best_cut};
 use super::units::{Bounds, Units};
 use super::{Bvh, LEVELS};
 use crate::accel::{BuildError, Id};
 use crate::memory::Arena;
 use crate::num::Real;
 use crate::scene::{Scene, Shapes};
+use core::ops::Range;
 use heapless::Vec;
 
 impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
@@ -72,6 +73,10 @@ impl Group {
         Self { first, count, nodes }
     }
 
+    fn range(&self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
+
     fn can_use_more(&self) -> bool {
         self.nodes < most_below(self.count)
     }
@@ -111,6 +116,9 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         level
     }
 
+    // What follows are functions of their own, for the stack: it is deepest where the best cut is
+    // looked for, and then holds only what that is for.
+
     /// The children of a node on a level; the root's is 1.
     fn divide(&mut self, node: Group, level: usize, groups: &mut Groups) {
         let below = node.nodes.saturating_sub(1);
@@ -121,6 +129,13 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
                 return;
             }
         }
+        self.cut_equally(node, groups);
+        deal(groups, below);
+    }
+
+    /// Eight groups of as many shapes; fewer when there are not so many.
+    #[inline(never)]
+    fn cut_equally(&mut self, node: Group, groups: &mut Groups) {
         groups.clear();
         let part = node.count.div_ceil(WIDTH);
         let end = node.first + node.count;
@@ -130,7 +145,6 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
             let _ = groups.push((Group { first, count, nodes: 0 }, self.bounds_of(first, count)));
             first += count;
         }
-        deal(groups, below);
     }
 
     /// Eight groups with small surfaces; fewer when there are not so many shapes.
@@ -139,59 +153,52 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         let whole = Group { nodes: 0, ..node };
         let _ = groups.push((whole, self.bounds_of(node.first, node.count)));
         while groups.len() < WIDTH {
-            let surface = |(_, (_, bounds)): &(usize, &(Group, Bounds))| bounds.half_area();
-            let divisible = groups.iter().enumerate().filter(|(_, (group, _))| group.count > 1);
-            let Some((largest, (group, _))) = divisible.max_by_key(surface) else { break };
-            let (below, above) = self.halve(*group);
-            if let Some(group) = groups.get_mut(largest) {
-                *group = below;
-            }
-            let _ = groups.push(above);
-            for place in (largest + 2..groups.len()).rev() {
-                if let Some([a, b]) = groups.get_mut(place - 1..=place) {
-                    core::mem::swap(a, b);
-                }
-            }
+            let Some(place) = largest(groups) else { break };
+            let ids = groups.get(place).map_or(0..0, |(group, _)| group.range());
+            let ids = self.ids.get(ids).unwrap_or_default();
+            let cut = best_cut::<I>(ids.iter().map(|id| self.bounds(*id)));
+            self.halve(groups, place, cut);
         }
     }
 
-    /// Cuts a group in two.
-    fn halve(&mut self, group: Group) -> ((Group, Bounds), (Group, Bounds)) {
-        let ids = self.ids.get(group.first..group.first + group.count).unwrap_or_default();
-        let boxes = ids.iter().map(|id| self.bounds(*id));
-        let (count, below, above) = match best_cut(boxes) {
-            Some(cut) => {
-                let count = self.partition(group, |bounds| cut.is_below(bounds));
-                (count, cut.below, cut.above)
-            }
-            // All in one place.
-            None => {
-                let bounds = self.bounds_of(group.first, group.count);
-                (group.count / 2, bounds, bounds)
-            }
+    /// Cuts a group in two; in the middle of its list if its shapes are all in one place.
+    #[inline(never)]
+    fn halve(&mut self, groups: &mut Groups, place: usize, cut: Option<Cut>) {
+        let Some((group, bounds)) = groups.get_mut(place) else { return };
+        let (count, below, above) = match cut {
+            Some(cut) => self.partition(*group, cut),
+            None => (group.count / 2, *bounds, *bounds),
         };
-        let (first, rest) = (group.first + count, group.count - count);
-        ((Group { count, ..group }, below), (Group { first, count: rest, ..group }, above))
+        let rest = Group { first: group.first + count, count: group.count - count, ..*group };
+        (group.count, *bounds) = (count, below);
+        // Never refused: there is room for another.
+        let _ = groups.insert(place + 1, (rest, above));
     }
 
-    /// Brings those ids first of which the box is below; gives their number.
-    fn partition(&mut self, group: Group, below: impl Fn(Bounds) -> bool) -> usize {
+    /// Brings those ids first of which the box is below; gives their number, and the boxes of both
+    /// parts.
+    fn partition(&mut self, group: Group, cut: Cut) -> (usize, Bounds, Bounds) {
+        let (mut below, mut above) = (Bounds::EMPTY, Bounds::EMPTY);
         let (mut from, mut to) = (group.first, group.first + group.count);
         while from < to {
             let Some(id) = self.ids.get(from).copied() else { break };
-            if below(self.bounds(id)) {
+            let bounds = self.bounds(id);
+            if cut.is_below(bounds) {
+                below = below.union(bounds);
                 from += 1;
                 continue;
             }
+            above = above.union(bounds);
             to -= 1;
             if let Some([first, .., last]) = self.ids.get_mut(from..=to) {
                 core::mem::swap(first, last);
             }
         }
-        from - group.first
+        (from - group.first, below, above)
     }
 
     /// Brings leaves and their ranges before nodes.
+    #[inline(never)]
     fn leaves_first(&mut self, groups: &mut [(Group, Bounds)]) {
         for _ in 0..groups.len() {
             for place in 1..groups.len() {
@@ -213,10 +220,18 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         self.units.bounds(self.scene.shapes().bounds(id.get()))
     }
 
+    #[inline(never)]
     fn bounds_of(&self, first: usize, count: usize) -> Bounds {
         let ids = self.ids.get(first..first + count).unwrap_or_default();
         ids.iter().fold(Bounds::EMPTY, |all, id| all.union(self.bounds(*id)))
     }
+}
+
+/// The place of the group with the largest surface of those that can be cut.
+#[inline(never)]
+fn largest(groups: &[(Group, Bounds)]) -> Option<usize> {
+    let divisible = groups.iter().enumerate().filter(|(_, (group, _))| group.count > 1);
+    Some(divisible.max_by_key(|(_, (_, bounds))| bounds.half_area())?.0)
 }
 
 /// Makes a node of its groups; those that get nodes wait from `next` on. Gives the one after them.
@@ -243,6 +258,7 @@ fn lay(groups: &Groups, nodes: &mut [Node], number: usize, mut next: usize) -> u
 }
 
 /// Deals nodes out; false when some group would be a leaf with too many shapes.
+#[inline(never)]
 fn deal(groups: &mut [(Group, Bounds)], nodes: usize) -> bool {
     let mut left = nodes;
     for (group, _) in groups.iter_mut() {

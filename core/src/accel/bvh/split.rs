@@ -5,9 +5,10 @@
 //! construction of SAH-based bounding volume hierarchies", RT 2007, for the bins.
 
 use super::units::Bounds;
+use crate::accel::Id;
 
 /// Bins along an axis, of which at least half are used: their width is a power of two. A power of
-/// two itself. All bins of all axes take 768 bytes of the stack.
+/// two itself. All bins of all axes take 672 bytes of the stack, 768 with large ids.
 const BINS: usize = 16;
 
 /// A cut across an axis.
@@ -17,9 +18,6 @@ pub(super) struct Cut {
     from: u32,
     shift: u32,
     bin: u32,
-    /// The box of what lies below, and of the rest.
-    pub(super) below: Bounds,
-    pub(super) above: Bounds,
 }
 
 impl Cut {
@@ -30,28 +28,31 @@ impl Cut {
     }
 }
 
+/// Shapes are counted in the type of their ids.
 #[derive(Clone, Copy)]
-struct Bin {
+struct Bin<I> {
     bounds: Bounds,
-    count: u32,
+    count: I,
 }
 
-impl Bin {
-    const EMPTY: Self = Self { bounds: Bounds::EMPTY, count: 0 };
+impl<I: Id> Bin<I> {
+    fn empty() -> Self {
+        Self { bounds: Bounds::EMPTY, count: I::new(0) }
+    }
 
-    fn add(self, other: Self) -> Self {
-        Self { bounds: self.bounds.union(other.bounds), count: self.count + other.count }
+    fn add(self, bounds: Bounds, count: usize) -> Self {
+        Self { bounds: self.bounds.union(bounds), count: I::new(self.count.get() + count) }
     }
 
     fn cost(self) -> u64 {
-        self.bounds.half_area() * u64::from(self.count)
+        self.bounds.half_area() * self.count.get() as u64
     }
 }
 
 /// The cut with the least sum of surface times number on both sides; `None` when all boxes have the
 /// same middle.
 #[inline(never)]
-pub(super) fn best_cut(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cut> {
+pub(super) fn best_cut<I: Id>(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cut> {
     let (mut from, mut to) = ([u32::MAX; 3], [0; 3]);
     for bounds in boxes.clone() {
         for ((from, to), middle) in from.iter_mut().zip(&mut to).zip(bounds.middle()) {
@@ -59,7 +60,9 @@ pub(super) fn best_cut(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cu
             *to = middle.max(*to);
         }
     }
-    let mut bins = [[Bin::EMPTY; BINS]; 3];
+    // Not an array of arrays, of which one more would be made to be copied.
+    let mut bins = [Bin::<I>::empty(); 3 * BINS];
+    let (bins, _) = bins.as_chunks_mut::<BINS>();
     let mut shifts = [0; 3];
     for ((shift, from), to) in shifts.iter_mut().zip(from).zip(to) {
         let bits = u32::BITS - to.saturating_sub(from).leading_zeros();
@@ -70,7 +73,7 @@ pub(super) fn best_cut(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cu
         for (bins, ((middle, from), shift)) in bins.iter_mut().zip(places) {
             let bin = middle.saturating_sub(from) >> shift;
             if let Some(bin) = bins.get_mut(bin as usize) {
-                *bin = bin.add(Bin { bounds, count: 1 });
+                *bin = bin.add(bounds, 1);
             }
         }
     }
@@ -83,39 +86,30 @@ pub(super) fn best_cut(boxes: impl Iterator<Item = Bounds> + Clone) -> Option<Cu
         }
     }
     let (_, axis, bin) = best?;
-    let (below, above) = bins.get(axis)?.split_at_checked(bin)?;
-    let all = |bins: &[Bin]| bins.iter().fold(Bounds::EMPTY, |all, bin| all.union(bin.bounds));
-    Some(Cut {
-        axis,
-        from: from.get(axis).copied()?,
-        shift: shifts.get(axis).copied()?,
-        bin: bin as u32,
-        below: all(below),
-        above: all(above),
-    })
+    Some(Cut { axis, from: *from.get(axis)?, shift: *shifts.get(axis)?, bin: bin as u32 })
 }
 
 /// The least sum along an axis, and the first bin above that cut. Apart, as what it needs is not
 /// needed while the boxes of shapes are computed: the stack is deepest there.
 #[inline(never)]
-fn best_bin(bins: &[Bin; BINS]) -> Option<(u64, usize)> {
+fn best_bin<I: Id>(bins: &[Bin<I>; BINS]) -> Option<(u64, usize)> {
     // Where nothing is added nothing changes: few shapes are in few bins.
-    let (mut above, mut cost_above, mut costs) = (Bin::EMPTY, 0, [0; BINS]);
+    let (mut above, mut cost_above, mut costs) = (Bin::<I>::empty(), 0, [0; BINS]);
     for (cost, bin) in costs.iter_mut().zip(bins).rev() {
-        if bin.count > 0 {
-            above = above.add(*bin);
+        if bin.count.get() > 0 {
+            above = above.add(bin.bounds, bin.count.get());
             cost_above = above.cost();
         }
         *cost = cost_above;
     }
-    let (all, mut below) = (above.count, Bin::EMPTY);
+    let (all, mut below) = (above.count.get(), Bin::<I>::empty());
     let mut best: Option<(u64, usize)> = None;
     for ((number, bin), above) in (1..).zip(bins).zip(costs.iter().skip(1)) {
-        if bin.count == 0 {
+        if bin.count.get() == 0 {
             continue;
         }
-        below = below.add(*bin);
-        if below.count == all {
+        below = below.add(bin.bounds, bin.count.get());
+        if below.count.get() == all {
             break;
         }
         let cost = below.cost() + above;

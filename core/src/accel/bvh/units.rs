@@ -34,9 +34,10 @@ impl Bounds {
     /// Half the area of its surface; 0 for the empty box.
     pub(super) fn half_area(self) -> u64 {
         let ([ax, ay, az], [bx, by, bz]) = (self.lo, self.hi);
-        let size = |lo: u16, hi: u16| u64::from(hi.saturating_sub(lo));
+        let size = |lo: u16, hi: u16| u32::from(hi.saturating_sub(lo));
         let (x, y, z) = (size(ax, bx), size(ay, by), size(az, bz));
-        x * y + y * z + z * x
+        // A product of 16 bits by 16 bits is one instruction.
+        u64::from(x * y) + u64::from(y * z) + u64::from(z * x)
     }
 
     /// Twice its middle.

@@ -29,10 +29,9 @@ pub use implicit::Implicit;
 pub use storage::{Content, Hashed, Links, Storage};
 pub use walk::{By, Walk};
 
+use super::Id;
 use super::lattice::Lattice;
 use super::listing::Aside;
-use super::{Accel, Id, Visitor};
-use crate::geom::Ray;
 use crate::num::Real;
 
 /// An octree. `I` stores ids of shapes, `C` the cells: the words of 2 bytes that are meant when
@@ -104,11 +103,5 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
             Content::List(place) => (place, list_at(self.lists, place)),
             Content::Family(_) => (0, &[]),
         }
-    }
-}
-
-impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for Octree<'m, R, I, C> {
-    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
-        self.by(Walk::Descent).walk(ray, visitor);
     }
 }

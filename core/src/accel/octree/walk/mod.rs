@@ -58,6 +58,9 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
 impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for By<'_, Octree<'m, R, I, C>> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let octree = self.octree;
+        if self.walk == Walk::Descent {
+            return octree.walk(ray, visitor);
+        }
         octree.aside.visit(visitor);
         let slopes = Slopes::of(ray);
         let part = octree.lattice.clip(&slopes, visitor.start(), visitor.limit());
@@ -65,22 +68,42 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for By<'_, Octree<'m, R, I, C>
         match self.walk {
             Walk::Restart => one_by_one(
                 octree,
-                Places::<_, _, _, false>::new(octree, ray, &slopes, enter),
+                &mut Places::<_, _, _, false>::new(octree, ray, &slopes, enter),
                 visitor,
             ),
             Walk::Neighbours => one_by_one(
                 octree,
-                Places::<_, _, _, true>::new(octree, ray, &slopes, enter),
+                &mut Places::<_, _, _, true>::new(octree, ray, &slopes, enter),
                 visitor,
             ),
-            Walk::Descent => {
-                one_by_one(octree, Descent::new(octree, ray, &slopes, enter, leave), visitor);
-            }
-            Walk::Segments => {
+            Walk::Descent | Walk::Segments => {
                 in_pieces(octree, Descent::new(octree, ray, &slopes, enter, leave), visitor);
             }
         }
     }
+}
+
+impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for Octree<'m, R, I, C> {
+    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        self.aside.visit(visitor);
+        let mut descent = enter(self, ray, visitor.start(), visitor.limit());
+        if let Some(descent) = &mut descent {
+            one_by_one(self, descent, visitor);
+        }
+    }
+}
+
+/// The descent of a ray that meets the octree.
+#[inline(always)]
+fn enter<'o, 'm, R: Real, I: Id, C: Storage<'m>>(
+    octree: &'o Octree<'m, R, I, C>,
+    ray: &Ray<R>,
+    start: R,
+    limit: R,
+) -> Option<Descent<'o, 'm, R, I, C>> {
+    let slopes = Slopes::of(ray);
+    let (enter, leave) = octree.lattice.clip(&slopes, start, limit)?;
+    Some(Descent::new(octree, ray, &slopes, enter, leave))
 }
 
 /// A leaf, and the parameter at which the ray leaves it.
@@ -109,7 +132,7 @@ fn test<'m, R: Real, I: Id, C: Storage<'m>, V: Visitor<R>>(
 /// Tests every leaf when it is found.
 fn one_by_one<'m, R: Real, I: Id, C: Storage<'m>, V: Visitor<R>>(
     octree: &Octree<'m, R, I, C>,
-    mut leaves: impl Leaves<R, C::Cell>,
+    leaves: &mut impl Leaves<R, C::Cell>,
     visitor: &mut V,
 ) {
     while let Some(piece) = leaves.next(visitor.probe()) {
