@@ -63,6 +63,14 @@ impl<R: Real> Ray<R> {
         Some(Self { origin, direction, squared, reach, slack: R::ZERO, left: Self::FREE })
     }
 
+    /// The same with a direction of length 1, give or take its rounding.
+    #[inline]
+    pub(crate) fn of_unit(origin: Vec3<R>, unit: Vec3<R>, reach: R) -> Option<Self> {
+        let reach = checked(origin, unit, reach < R::INFINITY, reach)?;
+        let (squared, slack, left) = (R::ONE, R::ZERO, Self::FREE);
+        Some(Self { origin, direction: unit, squared, reach, slack, left })
+    }
+
     /// Another ray of the same scene: from a point as in [`Ray::from`], its direction of the squared
     /// length given, give or take its rounding, from the flat shape `left` or none.
     #[inline]
@@ -108,7 +116,7 @@ impl<R: Real> Ray<R> {
 
     /// The point at parameter `t`.
     pub fn at(&self, t: R) -> Vec3<R> {
-        R::at(self.origin, self.direction, t)
+        R::along(self.origin, self.direction, t, self.reach)
     }
 
     /// The squared length of the direction.
@@ -119,7 +127,8 @@ impl<R: Real> Ray<R> {
     /// Whether its direction is of length 1, which may be rounded where numbers are exact.
     pub(crate) fn is_unit(&self) -> bool {
         let slack = if R::EXACT { R::ulps(4) } else { R::ZERO };
-        (self.squared - R::ONE).abs() <= slack
+        let off = self.squared.way(R::ONE);
+        off >= -slack && off <= slack
     }
 
     /// How far from the middle of all coordinates it starts, at most; [`Real::INFINITY`] when the

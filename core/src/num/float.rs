@@ -13,6 +13,7 @@ macro_rules! float {
             type Cells = FloatCells<Self>;
             type Progress = FloatProgress<Self>;
             type Slope = Self;
+            type Course = ();
 
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -50,6 +51,7 @@ macro_rules! float {
             fn proportion(self, whole: Self, n: i32) -> i32 {
                 (self / whole * n as Self) as i32
             }
+            fn course(_unit: Self::Vec3, _reach: Self) {}
             fn slopes([u, v]: [Self; 2], along: Self) -> ([Self; 2], Self) {
                 ([u / along, v / along], 1.0 / along)
             }

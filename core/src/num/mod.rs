@@ -86,6 +86,8 @@ pub trait Real:
     type Reciprocal: Reciprocal<Self>;
     /// How far a ray moves across an axis while it moves along it by 1; at most 1.
     type Slope: Copy + Debug + Default + Send + Sync;
+    /// What tells quickly whether a ray passes by a sphere, if anything does.
+    type Course: Copy + Debug + Default + Send + Sync;
     /// An extent divided into equal cells.
     type Cells: Cells<Self>;
     /// Walls at equal distances along a ray.
@@ -205,10 +207,13 @@ pub trait Real:
     /// `self` to a power, for `self` in 0 to 1: what highlights need. Off by less than 1/2700.
     fn powf(self, exponent: Self::Exponent) -> Self;
 
+    /// What [`Real::passes`] wants to know of a ray: from its direction, of length 1, and the greatest
+    /// coordinate of its origin.
+    fn course(unit: Self::Vec3, reach: Self) -> Self::Course;
     /// Whether a line surely passes by a sphere: what is quicker to tell than where it meets it.
-    /// `towards` is the way from a point of the line to the centre, `unit` its direction.
+    /// `towards` is the way from the ray's origin to the centre.
     #[inline(always)]
-    fn passes(_towards: Self::Vec3, _unit: Self::Vec3, _radius: Self) -> bool {
+    fn passes(_towards: Self::Vec3, _course: &Self::Course, _radius: Self) -> bool {
         false
     }
     /// For a sphere of that radius, the parameter of a ray's point nearest to its centre, and from
@@ -236,6 +241,17 @@ pub trait Real:
     /// `origin + direction * t`.
     fn at(origin: Self::Vec3, direction: Self::Vec3, t: Self) -> Self::Vec3 {
         origin + direction * t
+    }
+    /// The same for an origin up to `reach` and the direction of a ray; of any direction where `reach` is
+    /// [`Real::INFINITY`].
+    #[inline(always)]
+    fn along(origin: Self::Vec3, direction: Self::Vec3, t: Self, _reach: Self) -> Self::Vec3 {
+        Self::at(origin, direction, t)
+    }
+    /// A place `error` beside a point with coordinates up to `reach - error`, along a vector of length 1.
+    #[inline(always)]
+    fn beside(point: Self::Vec3, unit: Self::Vec3, error: Self, _reach: Self) -> Self::Vec3 {
+        Self::at(point, unit, error)
     }
     /// `across / along` of two components of a direction, of which `along` is the greatest, and
     /// `1 / along`.

@@ -73,13 +73,32 @@ impl<R: Real> Camera<R> {
     /// The ray through a point of the picture: `x` from -1 at the left edge to 1 at the right,
     /// `y` from -1 at the lower edge to 1 at the upper. `None` only if numbers overflow.
     pub fn ray(&self, x: R, y: R) -> Option<Ray<R>> {
-        let direction = R::at(R::at(self.forward, self.right, x), self.up, y);
+        self.ray_in(&self.line(y), x)
+    }
+
+    /// A line of the picture, `y` as in [`Camera::ray`].
+    pub(crate) fn line(&self, y: R) -> Line<R> {
+        let middle = if R::EXACT { R::at(self.forward, self.up, y) } else { self.forward };
+        Line { middle, y }
+    }
+
+    /// The ray through a point of a line.
+    pub(crate) fn ray_in(&self, line: &Line<R>, x: R) -> Option<Ray<R>> {
+        let direction = R::at(line.middle, self.right, x);
         if R::EXACT {
             // Where spheres are the quicker for a direction of length 1.
-            return Ray::from(self.eye, direction.unit()?, self.reach);
+            return Ray::of_unit(self.eye, direction.unit()?, self.reach);
         }
-        Ray::from(self.eye, direction, self.reach)
+        Ray::from(self.eye, R::at(direction, self.up, line.y), self.reach)
     }
+}
+
+/// What all points of a line of the picture have in common.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Line<R: Real> {
+    /// From the eye to its middle, where it makes no difference which way is gone first.
+    middle: Vec3<R>,
+    y: R,
 }
 
 #[cfg(test)]

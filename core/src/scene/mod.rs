@@ -8,6 +8,7 @@ mod material;
 mod shapes;
 mod solids;
 
+pub(crate) use camera::Line;
 pub use camera::{Camera, View, ViewError};
 pub use either::Either;
 pub(crate) use framing::Framing;

@@ -35,8 +35,8 @@ pub struct Length<R: Real> {
     pub(super) inverse_squared: R,
     /// 1 / |d|; of no use where numbers are exact.
     inverse: R,
-    /// d / |d|, where numbers are exact.
-    unit: Vec3<R>,
+    /// Where numbers are exact.
+    course: R::Course,
 }
 
 impl<R: Real> Length<R> {
@@ -47,7 +47,7 @@ impl<R: Real> Length<R> {
             return Self {
                 inverse_squared,
                 inverse: inverse_squared.sqrt(),
-                unit: Vec3::<R>::default(),
+                course: R::Course::default(),
             };
         }
         // A length of 1 may be rounded; what that makes of a hit is less than a step.
@@ -56,7 +56,8 @@ impl<R: Real> Length<R> {
         } else {
             (R::ONE / ray.squared(), ray.direction().unit())
         };
-        Self { inverse_squared: inverse, inverse: R::ZERO, unit: unit.unwrap_or_default() }
+        let course = R::course(unit.unwrap_or_default(), ray.reach());
+        Self { inverse_squared: inverse, inverse: R::ZERO, course }
     }
 }
 
@@ -72,7 +73,7 @@ impl<R: Real> Sphere<R> {
     #[inline(always)]
     fn middle(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
         let f = self.center - ray.origin();
-        if R::passes(f, length.unit, self.radius) {
+        if R::passes(f, &length.course, self.radius) {
             return None;
         }
         R::chord(f, ray.direction(), [length.inverse, length.inverse_squared], self.radius)

@@ -6,7 +6,7 @@ use crate::accel::{Accel, Mailbox};
 use crate::display::rgb888;
 use crate::num::{Real, Vec3};
 use crate::probe::Probe;
-use crate::scene::{Camera, Shapes};
+use crate::scene::{Camera, Line, Shapes};
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::pixelcolor::Rgb888;
 use embedded_graphics_core::prelude::{Point, Size};
@@ -22,19 +22,26 @@ pub struct Renderer<'a, R: Real, S, A, M, P = Middle> {
     height: u16,
     next_row: u16,
     sampling: P,
+    /// The line of the picture that was looked at last, and its place.
+    line: (i32, Line<R>),
 }
+
+/// No line of any picture.
+const NOWHERE: i32 = i32::MIN;
 
 impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Renderer<'a, R, S, A, M> {
     /// A picture of so many pixels, not begun. The camera's aspect should be `width / height`.
     pub fn new(tracer: Tracer<'a, R, S, A, M>, camera: Camera<R>, width: u16, height: u16) -> Self {
-        Self { tracer, camera, width, height, next_row: 0, sampling: Middle }
+        let line = (NOWHERE, Line::default());
+        Self { tracer, camera, width, height, next_row: 0, sampling: Middle, line }
     }
 
     /// The same picture, each pixel made from other rays than the one through its middle.
     #[must_use]
     pub fn sampled<P: Sampling<R>>(self, sampling: P) -> Renderer<'a, R, S, A, M, P> {
         let Self { tracer, camera, width, height, next_row, .. } = self;
-        Renderer { tracer, camera, width, height, next_row, sampling }
+        let line = (NOWHERE, Line::default());
+        Renderer { tracer, camera, width, height, next_row, sampling, line }
     }
 }
 
@@ -51,7 +58,7 @@ impl<R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox, P: Sampling<R>> Renderer<'_
 
     /// The colour of a pixel. The pixel (0, 0) is at the upper left.
     pub fn pixel<C: Probe>(&mut self, x: u16, y: u16, probe: &mut C) -> Vec3<R> {
-        let Self { tracer, camera, width, height, sampling, .. } = self;
+        let Self { tracer, camera, width, height, sampling, line, .. } = self;
         let parts = sampling.parts();
         // From points in parts of pixels to -1..1 across the picture.
         let across = |i: i32, n: u16| {
@@ -59,7 +66,10 @@ impl<R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox, P: Sampling<R>> Renderer<'_
             R::fraction(2 * i - n, n)
         };
         let mut see = |x: i32, y: i32| {
-            let ray = camera.ray(across(x, *width), -across(y, *height));
+            if line.0 != y {
+                *line = (y, camera.line(-across(y, *height)));
+            }
+            let ray = camera.ray_in(&line.1, across(x, *width));
             ray.map_or_else(Vec3::<R>::default, |ray| tracer.color(ray, probe))
         };
         sampling.pixel(x, y, &mut see)

@@ -162,7 +162,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         let mut color = Vec3::<R>::default();
         // The last one is under way, and lies where it is: a copy would take as much again.
         while let Some(now) = rays.last() {
-            let weight = now.weight;
+            let Pending { weight, depth, .. } = *now;
             let seen = match self.meet(now, probe) {
                 Some(hit) => self.follow(rays, hit, probe),
                 None => {
@@ -170,7 +170,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
                     self.scene.background()
                 }
             };
-            color = R::at(color, seen, weight);
+            color = if depth == 1 { seen } else { R::at(color, seen, weight) };
         }
         color
     }
@@ -208,7 +208,8 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
             return scene.background();
         };
         let material = scene.material(hit.id);
-        let origin = R::at(surface.point, surface.normal, surface.error);
+        let Surface { point, normal, error, reach, .. } = *surface;
+        let origin = R::beside(point, normal, error, reach);
         let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
         let mirrored =
             if mirrors { mirrored(now.ray.direction(), surface) } else { Vec3::<R>::default() };

@@ -30,13 +30,22 @@
 //! 19. All of this is in range. What may still leave it (a plane that a ray meets far outside, a
 //! division by next to nothing) **saturates**: sums, products, quotients and conversions give
 //! [`Real::INFINITY`] or its opposite, which are no numbers ([`Real::is_finite`]) and so no hits.
-//! A division by zero does, too. Sums of products cannot saturate and need not.
+//! A division by zero does, too. Sums of products cannot saturate and need not. Where the range is
+//! known no end of it is looked for: points of rays that start within 2 and go on for less than 2, with
+//! directions below 2 along an axis, are within 6; what is [beside](Real::beside) a point keeps to the
+//! range that its `reach` tells.
+//!
+//! # Short products
+//! ARMv6-M multiplies 32 by 32 bits into 32 only, and neither it nor RV32IMC counts leading zeros. What
+//! is computed otherwise there (`whole.rs`) gives the same bits; where a sphere is told to be
+//! [passed by](Real::passes) in fewer digits, what is not sure is computed in full.
 
 mod chord;
 mod linear;
 mod vector;
 mod whole;
 
+pub use chord::Course;
 pub use linear::{Cells, Progress, Reciprocal, Slope};
 pub use vector::{FarPoint, Vec3};
 
@@ -44,7 +53,7 @@ use crate::num::{self, Real, Vector};
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use fixed::types::{I4F28, I8F56, U22F10};
-use whole::{nearest_root, quotient, shifted};
+use whole::{nearest_root, product, quotient, shifted, whole_power};
 
 /// Bits after the point.
 const DIGITS: u32 = 28;
@@ -169,6 +178,7 @@ impl Real for Fixed {
     type Cells = Cells;
     type Progress = Progress;
     type Slope = Slope;
+    type Course = Course;
 
     const ZERO: Self = Self::from_bits(0);
     const ONE: Self = Self::from_bits(1 << DIGITS);
@@ -193,8 +203,19 @@ impl Real for Fixed {
         Self::saturated(i64::from(i) << DIGITS)
     }
     fn fraction(a: i32, b: i32) -> Self {
-        let (n, d) = (u64::from(a.unsigned_abs()), b.unsigned_abs());
-        Self::signed((a < 0) != (b < 0), quotient((n << DIGITS) + u64::from(d / 2), d))
+        let (n, d) = (a.unsigned_abs(), b.unsigned_abs());
+        let negative = (a < 0) != (b < 0);
+        // Half of the digits at a time: two divisions of 32 bits.
+        const HALF: u32 = DIGITS / 2;
+        if n <= d
+            && d >> 16 == 0
+            && let (Some(upper), Some(rest)) =
+                ((n << HALF).checked_div(d), (n << HALF).checked_rem(d))
+            && let Some(lower) = ((rest << HALF) + d / 2).checked_div(d)
+        {
+            return Self::signed(negative, (upper << HALF) + lower);
+        }
+        Self::signed(negative, quotient((u64::from(n) << DIGITS) + u64::from(d / 2), d))
     }
     fn times_int(self, n: i32) -> Self {
         Self::saturated(i64::from(self.to_bits()) * i64::from(n))
@@ -209,7 +230,9 @@ impl Real for Fixed {
         product.checked_div(i64::from(whole.to_bits())).unwrap_or(0) as i32
     }
     fn to_byte(self) -> u8 {
-        Self::rounded(i64::from(self.to_bits().clamp(0, 1 << DIGITS)) * 255, DIGITS).to_bits() as u8
+        // 255/256 of it: of 32 bits, other than times 255. Halves of a step of 8 bits are told to 2^-28.
+        let steps = self.to_bits().clamp(0, 1 << DIGITS);
+        ((steps - (steps >> 8) + (1 << (DIGITS - 9))) >> (DIGITS - 8)) as u8
     }
     fn is_finite(self) -> bool {
         self.to_bits().unsigned_abs() < i32::MAX as u32
@@ -239,7 +262,7 @@ impl Real for Fixed {
     }
 
     fn times(self, rhs: Self) -> I8F56 {
-        self.0.wide_mul(rhs.0)
+        I8F56::from_bits(product(self.to_bits(), rhs.to_bits()))
     }
     #[inline]
     fn narrow(w: I8F56) -> Self {
@@ -249,27 +272,11 @@ impl Real for Fixed {
         Self::signed(false, nearest_root(w.to_bits().max(0) as u64))
     }
     /// Within 2^-30 of the value of the nearest.
+    #[inline(never)]
     fn ratio(numerator: I8F56, denominator: I8F56) -> Self {
-        let negative = numerator.is_negative() != denominator.is_negative();
+        let negative = (numerator.to_bits() ^ denominator.to_bits()) < 0;
         let (n, d) = (numerator.to_bits().unsigned_abs(), denominator.to_bits().unsigned_abs());
-        if d == 0 {
-            return Self::signed(negative, u32::MAX);
-        }
-        // Both moved to the upper end, of the divisor 32 bits taken: a short division will do.
-        let (up, high) = (n.leading_zeros(), d.leading_zeros());
-        let (n, d) = (n << (up & 63), ((d << high) >> 32) as u32);
-        // The quotient, of 32 bits, is to be divided by 2^digits.
-        let one_more = (n >> 32) as u32 >= d;
-        let quotient = quotient(n >> u32::from(one_more), d);
-        let digits = 32 + up as i32 - high as i32 - DIGITS as i32 - i32::from(one_more);
-        let steps = match digits {
-            ..=0 if n == 0 => 0,
-            ..=0 => u32::MAX,
-            1..=31 => (quotient >> digits) + (quotient >> (digits - 1) & 1),
-            32 => quotient >> 31,
-            _ => 0,
-        };
-        Self::signed(negative, steps)
+        Self::signed(negative, whole::ratio(n, d))
     }
     /// Within 2^-28 of the greatest `z` of the exact one.
     fn mean(weights: [I8F56; 3], z: [Self; 3]) -> Self {
@@ -315,15 +322,22 @@ impl Real for Fixed {
         true
     }
     fn powf(self, exponent: Exponent) -> Self {
-        super::power(self, exponent.to_bits() >> 10, exponent.to_bits() & 1023)
+        let (whole, rest) = (exponent.to_bits() >> 10, exponent.to_bits() & 1023);
+        let power = whole_power(self.to_bits().clamp(0, 1 << DIGITS) as u32, whole);
+        let power = Self::from_bits(power as i32);
+        if rest == 0 { power } else { power * super::power(self, 0, rest) }
     }
 
     fn ulps_at(n: i32, _magnitude: Self) -> Self {
         Self::ulps(n)
     }
     #[inline(always)]
-    fn passes(towards: Vec3, unit: Vec3, radius: Self) -> bool {
-        chord::passes(towards, unit, radius)
+    fn course(unit: Vec3, reach: Self) -> Course {
+        Course::new(unit, reach)
+    }
+    #[inline(always)]
+    fn passes(towards: Vec3, course: &Course, radius: Self) -> bool {
+        course.passes(towards, radius)
     }
     #[inline(always)]
     fn chord(
@@ -332,7 +346,8 @@ impl Real for Fixed {
         [_, inverse_squared]: [Self; 2],
         radius: Self,
     ) -> Option<(Self, Self)> {
-        chord::chord(towards, direction, inverse_squared, radius)
+        let [x, y, z] = towards.to_array().map(Self::to_bits);
+        chord::chord(x, y, z, direction, inverse_squared, radius)
     }
     /// Errors do not grow with the distance: as far as the range goes.
     fn far(_scale: Self) -> Self {
@@ -340,15 +355,15 @@ impl Real for Fixed {
     }
     #[inline]
     fn at(origin: Vec3, direction: Vec3, t: Self) -> Vec3 {
-        let along = |o: Self, d: Self| {
-            let steps = i64::from(o.to_bits()) << DIGITS;
-            Self::rounded(steps + i64::from(d.to_bits()) * i64::from(t.to_bits()), DIGITS)
-        };
-        Vec3::new(
-            along(origin.x, direction.x),
-            along(origin.y, direction.y),
-            along(origin.z, direction.z),
-        )
+        origin.at(direction, t)
+    }
+    #[inline(always)]
+    fn along(origin: Vec3, direction: Vec3, t: Self, reach: Self) -> Vec3 {
+        origin.along_ray(direction, t, reach)
+    }
+    #[inline(always)]
+    fn beside(point: Vec3, unit: Vec3, error: Self, reach: Self) -> Vec3 {
+        point.beside(unit, error, reach)
     }
     fn slopes(across: [Self; 2], along: Self) -> ([Slope; 2], Self) {
         let reciprocal = Reciprocal::of(along);
@@ -395,7 +410,10 @@ impl Real for Fixed {
         far.seen_from(from)
     }
     fn distance_to(far: FarPoint, towards: Self) -> Self {
-        towards.ldexp(far.exponent())
+        match far.exponent() {
+            0 => towards,
+            exponent => towards.ldexp(exponent),
+        }
     }
 }
 

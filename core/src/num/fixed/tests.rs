@@ -260,3 +260,107 @@ fn units_have_length_1_within_a_step_or_two() {
         assert!(off < 4.0 / f64::from(1 << 28), "{v:?} {off}");
     }
 }
+
+/// What is computed in another way where products are short is tested here, too.
+#[test]
+fn halves_give_the_same_bits() {
+    let mut random = Random(21);
+    let edges = [0, 1, -1, 0xffff, 0x1_0000, -0x1_0000, i32::MAX, i32::MIN, i32::MIN + 1];
+    let mut any =
+        || random.within(-1.0, 1.0).to_bits() as i32 ^ (random.signed().to_bits() << 9) as i32;
+    for i in 0..200_000 {
+        let [a, b] = [i / edges.len(), i % edges.len()]
+            .map(|i| edges.get(i).copied())
+            .map(|x| x.unwrap_or_else(&mut any));
+        assert_eq!(whole::of_halves(a, b), i64::from(a) * i64::from(b), "{a} {b}");
+        let high = ((a as u32 as u64 * b as u32 as u64) >> 32) as u32;
+        assert_eq!(whole::high_of_halves(a as u32, b as u32), high, "{a} {b}");
+        let x = (i64::from(a) << 32 | i64::from(b as u32)) as u64 >> (i % 64);
+        if x != 0 {
+            assert_eq!(whole::zeros_by_halves(x), x.leading_zeros(), "{x}");
+        }
+    }
+}
+
+#[test]
+fn reciprocal_roots_and_powers_are_off_by_a_few_steps() {
+    let mut off = [0.0_f64; 2];
+    for i in (1_u64 << 30..1 << 32).step_by(4_111).chain(1 << 30..(1 << 30) + 9_999) {
+        let exact = 2.0_f64.powi(47) / (i as f64).sqrt();
+        let error = f64::from(whole::reciprocal_root(i as u32)) - exact;
+        off = [off[0].min(error), off[1].max(error)];
+    }
+    assert!(off[0] >= -3.0 && off[1] <= 3.0, "{off:?}");
+    for n in [0, 1, 2, 3, 8, 27, 32, 64] {
+        for i in 0..=10_000 {
+            let base = Fixed::fraction(i, 10_000);
+            let power = f64::from(whole_power(base.to_bits() as u32, n)) * STEP;
+            let exact = base.to_f64().powi(n as i32);
+            assert!((power - exact).abs() <= 4.5 * STEP, "{i} {n}: {power} {exact}");
+        }
+    }
+}
+
+#[test]
+fn points_of_rays_are_the_same_by_every_way() {
+    let mut random = Random(22);
+    for _ in 0..200_000 {
+        let [origin, direction] = [(); 2].map(|()| {
+            let v = random.vector();
+            Vec3::from_f64([v.x, v.y, v.z].map(|x| f64::from(x) * 1.9))
+        });
+        let (t, reach) = (any(&mut random, 7.9), origin.max_abs());
+        assert_eq!(Fixed::along(origin, direction, t, reach), Fixed::at(origin, direction, t));
+        let Some(unit) = direction.unit() else { continue };
+        let error = Fixed::ulps(16);
+        assert_eq!(Fixed::beside(origin, unit, error, reach), Fixed::at(origin, unit, error));
+    }
+}
+
+#[test]
+fn no_sphere_that_is_met_is_passed_by() {
+    let mut random = Random(23);
+    let (mut told, mut passed) = ([0; 2], 0);
+    for i in 0..300_000 {
+        let mut place = |most: f64| {
+            let v = random.vector();
+            Vec3::from_f64([v.x, v.y, v.z].map(|x| f64::from(x) * most))
+        };
+        let (center, origin) = (place(0.5), place([0.25, 0.5, 1.0, 2.0][i % 4]));
+        let Some(unit) = place(1.0).unit() else { continue };
+        // Aimed at a place within twice the radius of the centre, or anywhere.
+        let radius = Fixed::new(random.within(0.02, 0.5).into());
+        let aim = center + unit * (radius + radius);
+        let towards = center - origin;
+        let direction = if i % 3 == 0 { unit } else { (aim - origin).unit().unwrap_or(unit) };
+        let [x, y, z] = towards.to_array().map(Fixed::to_bits);
+        let met = chord::chord(x, y, z, direction, Fixed::ONE, radius).is_some();
+        let (passes, short) = chord::both(direction, origin.max_abs(), towards, radius);
+        assert!(!(met && (passes || short)), "{origin:?} {direction:?} {center:?} {radius:?}");
+        passed += u32::from(!met);
+        told[0] += u32::from(passes);
+        told[1] += u32::from(short);
+    }
+    // Of those passed by, nearly all are told.
+    assert!(told[0] * 100 > passed * 99 && told[1] * 100 > passed * 90, "{told:?} of {passed}");
+}
+
+#[test]
+fn roots_next_to_powers_of_two_and_lengths_of_units_are_right() {
+    let mut random = Random(25);
+    for digits in 2..63 {
+        for i in 0..4_000_u64 {
+            let away = if i < 2_000 { i } else { (random.within(0.0, 1.0) * 1e6) as u64 * i };
+            for x in [(1_u64 << digits).saturating_sub(away), (1_u64 << digits) + away] {
+                let root = x.isqrt();
+                let nearest = root + u64::from(x - root * root > root);
+                assert_eq!(u64::from(nearest_root(x)), nearest, "{x}");
+            }
+        }
+    }
+    for _ in 0..300_000 {
+        let v = random.vector();
+        let Some(unit) = Vec3::from_f64([v.x, v.y, v.z].map(f64::from)).unit() else { continue };
+        assert!((unit.length() - Fixed::ONE).abs() <= Fixed::ulps(2), "{unit:?}");
+    }
+}

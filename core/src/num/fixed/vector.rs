@@ -1,8 +1,8 @@
 //! Three fixed-point numbers, and points far away.
 
-use super::Fixed;
-use super::whole::reciprocal_root;
-use crate::num::{Real, Vector};
+use super::whole::{leading_zeros, product, reciprocal_root, shifted, upper};
+use super::{DIGITS, Fixed};
+use crate::num::{Axis, Real, Vector};
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// A point, a direction or a colour; 12 bytes.
@@ -29,6 +29,73 @@ impl Vec3 {
     pub const fn new(x: Fixed, y: Fixed, z: Fixed) -> Self {
         Self { x, y, z }
     }
+
+    /// From steps of 2^-56, cut off; whether one is out of range is asked of all at once.
+    #[inline(always)]
+    pub(super) fn cut(steps: [i64; 3]) -> Self {
+        let [x, y, z] = steps.map(|s| (s >> 32) as i32).map(|high| high ^ (high >> 31));
+        if (x | y | z) >> (DIGITS - 1) == 0 {
+            Self::from_array(steps.map(|s| Fixed::from_bits((s >> DIGITS) as i32)))
+        } else {
+            let [x, y, z] = steps;
+            saturated(x, y, z)
+        }
+    }
+}
+
+impl Vec3 {
+    /// `self + direction * t`, each rounded once.
+    #[inline]
+    pub(super) fn at(self, direction: Self, t: Fixed) -> Self {
+        let along = |o: Fixed, d: Fixed| {
+            // Half a step is rounded up; it fits below what the origin is moved up by.
+            let (high, low) =
+                (o.to_bits() >> 4, (o.to_bits() as u32) << DIGITS | 1 << (DIGITS - 1));
+            (i64::from(high) << 32 | i64::from(low)) + product(d.to_bits(), t.to_bits())
+        };
+        Self::cut([
+            along(self.x, direction.x),
+            along(self.y, direction.y),
+            along(self.z, direction.z),
+        ])
+    }
+
+    /// The same for the direction of a ray, less than 2 along an axis unless `reach` is infinite:
+    /// while both numbers can be moved up, the upper half of a product is all that this takes.
+    #[inline(always)]
+    pub(super) fn along_ray(self, direction: Self, t: Fixed, reach: Fixed) -> Self {
+        let two = Fixed::from_bits(2 << DIGITS);
+        if reach > two || t < -two || t >= two {
+            return self.at(direction, t);
+        }
+        // At most 2 and a product of less than 4: in range.
+        let along = |o: Fixed, d: Fixed| {
+            let way = upper(product(d.to_bits() << 2, t.to_bits() << 2));
+            Fixed::from_bits(o.to_bits().wrapping_add(way))
+        };
+        self.zip(direction, along)
+    }
+
+    /// The same for a vector of length 1 and a few steps of `error`, within which `reach` keeps to the
+    /// range: its upper 16 digits tell.
+    #[inline(always)]
+    pub(super) fn beside(self, unit: Self, error: Fixed, reach: Fixed) -> Self {
+        if reach == Fixed::INFINITY || error.to_bits() >> 12 != 0 {
+            return self.at(unit, error);
+        }
+        let beside = |p: Fixed, u: Fixed| {
+            let way = ((u.to_bits() >> 12) * error.to_bits() + (1 << 15)) >> 16;
+            Fixed::from_bits(p.to_bits().wrapping_add(way))
+        };
+        self.zip(unit, beside)
+    }
+}
+
+/// By value: what a pointer leads to could not stay in registers.
+#[cold]
+#[inline(never)]
+fn saturated(x: i64, y: i64, z: i64) -> Vec3 {
+    Vec3::from_array([x, y, z].map(|s| Fixed::from_bits(shifted(s, DIGITS))))
 }
 
 impl Add for Vec3 {
@@ -60,7 +127,8 @@ impl Mul<Fixed> for Vec3 {
     type Output = Self;
     #[inline]
     fn mul(self, rhs: Fixed) -> Self {
-        Self::new(self.x * rhs, self.y * rhs, self.z * rhs)
+        let times = |x: Fixed| product(x.to_bits(), rhs.to_bits()) + (1 << (DIGITS - 1));
+        Self::cut(self.to_array().map(times))
     }
 }
 
@@ -86,30 +154,51 @@ impl Vector<Fixed> for Vec3 {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
     }
 
-    /// Moved up as far as it goes before it is squared, so that short vectors keep their digits.
+    /// Moved up as far as it goes before it is divided, so that short vectors keep their digits. What
+    /// is of length 1 to 2^-28 stays as it is.
     fn unit(self) -> Option<Self> {
         let steps = self.to_array().map(Fixed::to_bits);
-        const FAR: i32 = i32::MAX - 1;
-        // As long as the longest of them; a negative number may be taken for one less.
-        let [a, b, c] = steps.map(|x| x ^ (x >> 31));
-        let digits = a | b | c;
-        if (digits == 0 && steps == [0; 3]) || (digits >= FAR && !self.is_finite()) {
+        // Each square is at most 2^62.
+        let [x, y, z] = steps.map(|x| product(x, x) as u64);
+        let squared = x + y + z;
+        const ONE: u64 = 1 << (2 * DIGITS);
+        const NEAR: u64 = 1 << (DIGITS + 1);
+        if squared.wrapping_sub(ONE - NEAR) <= 2 * NEAR {
+            return Some(self);
+        }
+        // That of the greatest number has 62 digits.
+        if squared == 0 || (squared >> 60 != 0 && !self.is_finite()) {
             return None;
         }
-        let up = digits.leading_zeros() - 1;
-        // The longest has 31 digits now, the square 61 to 64; of those the upper 32, moved evenly.
-        let [x, y, z] = steps.map(|x| x << up);
-        let square = |x: i32| (i64::from(x) * i64::from(x)) as u64;
-        let squared = square(x) + square(y) + square(z);
-        let short = squared >> 62 == 0;
-        let upper = ((if short { squared << 2 } else { squared }) >> 32) as u32;
-        // 1 / length, at most 1, in 30 digits.
-        let inverse = i64::from(reciprocal_root(upper) >> 2);
-        let part = |x: i32| {
-            let x = i64::from(if short { x } else { x >> 1 });
-            Fixed::from_bits(((x * inverse + (1 << 31)) >> 32) as i32)
+        // As long as the length of 32 digits that the root's reciprocal of 30 is made for.
+        let up = leading_zeros(squared) / 2;
+        let inverse = (reciprocal_root(((squared << (2 * up)) >> 32) as u32) >> 2) as i32;
+        let moved = match up.checked_sub(1) {
+            Some(up) => steps.map(|x| x << up),
+            None => steps.map(|x| x >> 1),
         };
-        Some(Self::from_array([part(x), part(y), part(z)]))
+        let part = |x: i32| Fixed::from_bits(upper(product(x, inverse)));
+        Some(Self::from_array(moved.map(part)))
+    }
+
+    /// Of finite numbers and infinities; what else bits may say is neither.
+    fn max_abs(self) -> Fixed {
+        let [x, y, z] = self.to_array().map(|x| x.to_bits().wrapping_abs());
+        Fixed::from_bits(x.max(y).max(z))
+    }
+
+    fn major_axis(self) -> Axis {
+        let [x, y, z] = self.to_array().map(|x| x.to_bits().wrapping_abs());
+        match () {
+            () if x >= y && x >= z => Axis::X,
+            () if y >= z => Axis::Y,
+            () => Axis::Z,
+        }
+    }
+
+    fn scale(self, other: Self) -> Self {
+        let times = |a: Fixed, b: Fixed| product(a.to_bits(), b.to_bits()) + (1 << (DIGITS - 1));
+        Self::cut([times(self.x, other.x), times(self.y, other.y), times(self.z, other.z)])
     }
 
     fn across(self, other: Self) -> Self {
