@@ -298,17 +298,26 @@ fn surface<R: Real, S: Shapes<R>>(
 }
 
 /// A direction mirrored by a surface.
+#[inline]
 fn mirrored<R: Real>(direction: Vec3<R>, surface: &Surface<R>) -> Vec3<R> {
-    let mirror = |n: Vec3<R>| {
-        let along = R::narrow(direction.dot(n));
-        R::at(direction, n, -(along + along))
-    };
-    let mirrored = mirror(surface.shading);
+    let mirrored = mirror::<R>(direction, surface.shading);
     if surface.smooth && mirrored.dot(surface.normal) < R::Wide::default() {
-        // An interpolated normal would send the ray into the surface.
-        return mirror(surface.normal);
+        return mirrored_flat::<R>(direction, surface.normal);
     }
     mirrored
+}
+
+#[inline(always)]
+fn mirror<R: Real>(direction: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
+    let along = R::narrow(direction.dot(normal));
+    R::at(direction, normal, (-along).way(along))
+}
+
+/// Where an interpolated normal would send the ray into the surface.
+#[cold]
+#[inline(never)]
+fn mirrored_flat<R: Real>(direction: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
+    mirror::<R>(direction, normal)
 }
 
 /// A ray's arrival at a surface.
@@ -377,8 +386,8 @@ impl<R: Real> Arrival<'_, R> {
         if !(highlight > R::ZERO) {
             return matt;
         }
-        let length = if self.ray.is_unit() { R::ONE } else { self.ray.squared().sqrt() };
-        let highlight = if length == R::ONE { highlight } else { highlight / length };
+        let is_unit = self.ray.is_unit();
+        let highlight = if is_unit { highlight } else { highlight / self.ray.squared().sqrt() };
         let highlight = highlight.min(R::ONE);
         matt + Vec3::<R>::splat(specular * highlight.powf(shine))
     }

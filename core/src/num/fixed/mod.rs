@@ -144,9 +144,10 @@ impl Sub for Fixed {
 
 impl Neg for Fixed {
     type Output = Self;
+    /// The bits that are neither a number nor an infinity stay as they are.
     #[inline]
     fn neg(self) -> Self {
-        Self(self.0.saturating_neg())
+        Self(self.0.wrapping_neg())
     }
 }
 
@@ -213,7 +214,9 @@ impl Real for Fixed {
                 ((n << HALF).checked_div(d), (n << HALF).checked_rem(d))
             && let Some(lower) = ((rest << HALF) + d / 2).checked_div(d)
         {
-            return Self::signed(negative, (upper << HALF) + lower);
+            // At most 1.
+            let steps = ((upper << HALF) + lower) as i32;
+            return Self::from_bits(if negative { -steps } else { steps });
         }
         Self::signed(negative, quotient((u64::from(n) << DIGITS) + u64::from(d / 2), d))
     }
