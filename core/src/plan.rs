@@ -122,8 +122,8 @@ pub enum Reason {
         /// Bytes there are.
         available: usize,
     },
-    /// Shapes of much the same size everywhere: a grid.
-    EvenShapes {
+    /// Shapes of much the same size everywhere, or so large that they lie in each other: a grid.
+    EvenOrLargeShapes {
         /// How many there are.
         shapes: usize,
     },
@@ -150,8 +150,8 @@ impl core::fmt::Display for Reason {
                     "the smallest hierarchy takes {needed} bytes of {available}: a coarse grid"
                 )
             }
-            Self::EvenShapes { shapes } => {
-                write!(f, "{shapes} shapes of much the same size, spread evenly: a grid")
+            Self::EvenOrLargeShapes { shapes } => {
+                write!(f, "{shapes} shapes, spread evenly or lying in each other: a grid")
             }
             Self::ManyShapes { shapes } => {
                 write!(f, "{shapes} shapes: a hierarchy as fine as the memory allows")
@@ -264,10 +264,13 @@ fn choose<R: Real, S: Shapes<R>>(
     if needed <= budget {
         let mailbox = wishes.mailbox.unwrap_or(mailbox_for(shapes, budget)).footprint(shapes);
         let room = budget.saturating_sub(mailbox.kept);
-        // In fewer cells than shapes a grid is no match for a hierarchy.
-        let is_fine = |n: [u32; 3]| n.iter().map(|n| *n as usize).product::<usize>() >= shapes;
-        if grid::suits(scene, wishes.huge()) && is_fine(grid_for(scene, wishes, room).resolution) {
-            return (Structure::Grid, Reason::EvenShapes { shapes });
+        // In fewer cells a grid is no match for a hierarchy.
+        if let Some(cells) = grid::suits(scene, wishes.huge()) {
+            let resolution = grid_for(scene, wishes, room).resolution;
+            let there_are = resolution.iter().map(|n| *n as usize).product::<usize>();
+            if there_are / shapes >= cells {
+                return (Structure::Grid, Reason::EvenOrLargeShapes { shapes });
+            }
         }
         return (Structure::Bvh, Reason::ManyShapes { shapes });
     }

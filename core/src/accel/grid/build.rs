@@ -87,13 +87,18 @@ pub fn resolution_for<R: Real, S: Shapes<R>>(
     counts(low)
 }
 
-/// Whether shapes of much the same size lie everywhere in the box of the scene: equal cells are then
-/// hard to beat. Nine in ten are at least a quarter as long as the longest, and each of 64 equal
-/// parts of the box is touched. Time in proportion to the number of shapes; no memory.
-pub fn suits<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, huge: Huge) -> bool {
+/// From how many cells a shape on equal cells are hard to beat for a scene, if they are. Time in
+/// proportion to the number of shapes; no memory.
+///
+/// * One, where shapes of much the same size lie everywhere in the box of the scene: nine in ten are
+///   at least a quarter as long as the longest, and each of 64 equal parts of the box is touched.
+/// * Six, where thousands of shapes are large and in each other: on an average the box of one touches
+///   more than two and a half of the 64 parts. Boxes in boxes tell them apart badly, and small cells,
+///   that only a surface passes through, tell them well.
+pub fn suits<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, huge: Huge) -> Option<usize> {
     let (root, aside) = room::<_, _, u32>(scene, huge);
     let lattice = Lattice::new(root, [4; 3], scene.pad());
-    let (mut longest, mut touched) = (R::ZERO, 0_u64);
+    let (mut longest, mut touched, mut parts) = (R::ZERO, 0_u64, 0);
     // Lengths are looked at twice, the second time against the longest.
     let mut counts = [0_usize; 2];
     for pass in [false, true] {
@@ -112,11 +117,19 @@ pub fn suits<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, huge: Huge) -> bool
             let xs = (2_u64 << x1) - (1 << x0);
             let ys = (16_u64 << (4 * y1)) - (1 << (4 * y0));
             let zs = u64::MAX >> (48 - 16 * z1) & u64::MAX << (16 * z0);
-            touched |= (xs * 0x1111_1111_1111_1111) & (ys * 0x0001_0001_0001_0001) & zs;
+            let cells = (xs * 0x1111_1111_1111_1111) & (ys * 0x0001_0001_0001_0001) & zs;
+            parts += cells.count_ones() as usize;
+            touched |= cells;
         }
     }
     let [shapes, long] = counts;
-    shapes > 0 && long >= shapes - shapes / 10 && touched == u64::MAX
+    // Of fewer shapes boxes reach that far even where none is in another.
+    let are_large = shapes >= 4096 && 2 * parts > 5 * shapes;
+    if shapes > 0 && long >= shapes - shapes / 10 && touched == u64::MAX {
+        Some(1)
+    } else {
+        are_large.then_some(6)
+    }
 }
 
 impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
@@ -206,15 +219,21 @@ mod tests {
             Sphere::new(vec3((i % 6) as f32, (i / 6 % 6) as f32, (i / 36) as f32), 0.3)
         });
         let suited = |balls: &[Sphere<f32>]| suits(&Scene::new(balls).unwrap(), Huge::Aside);
-        assert!(suited(&balls));
-        assert!(!suited(&[]));
+        assert_eq!(suited(&balls), Some(1));
+        assert_eq!(suited(&[]), None);
         // A corner is empty.
         let cut = balls.map(|ball| if ball.center.element_sum() > 9.0 { balls[0] } else { ball });
-        assert!(!suited(&cut));
+        assert_eq!(suited(&cut), None);
         // One in five is much larger.
         for ball in balls.iter_mut().step_by(5) {
             *ball = Sphere::new(vec3(2.5, 2.5, 2.5), 2.0);
         }
-        assert!(!suited(&balls));
+        assert_eq!(suited(&balls), None);
+        // Thousands around a few places.
+        let shells: [Sphere<f32>; 5000] = core::array::from_fn(|i| {
+            let (place, size) = (vec3((i % 7) as f32, (i % 3) as f32, 0.0), i as f32 / 5000.0);
+            Sphere::new(place, 0.1 + 4.0 * size * size)
+        });
+        assert_eq!(suited(&shells), Some(6));
     }
 }
