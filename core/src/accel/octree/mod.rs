@@ -8,7 +8,7 @@
 //! * [`Storage`]: [`Links`], where a divided cell's word says where its children are, [`Hashed`], where
 //!   they are found by name, as Glassner's, or [`Implicit`], where their order tells;
 //! * [`Walk`]: from the root every time, as Glassner's, or by one of the later ways. The octree's
-//!   own [`Accel::walk`] is [`Walk::Descent`]; [`Octree::by`] takes another.
+//!   own [`Accel::walk`](super::Accel::walk) is [`Walk::Descent`]; [`Octree::by`] takes another.
 
 mod any;
 mod benefit;
