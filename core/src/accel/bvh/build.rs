@@ -171,8 +171,13 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         };
         let rest = Group { first: group.first + count, count: group.count - count, ..*group };
         (group.count, *bounds) = (count, below);
-        // Never refused: there is room for another.
-        let _ = groups.insert(place + 1, (rest, above));
+        // Never refused: there is room for another. `insert` could panic, for all the compiler knows.
+        let _ = groups.push((rest, above));
+        for at in (place + 2..groups.len()).rev() {
+            if let Some([a, b]) = groups.get_mut(at - 1..=at) {
+                core::mem::swap(a, b);
+            }
+        }
     }
 
     /// Brings those ids first of which the box is below; gives their number, and the boxes of both
