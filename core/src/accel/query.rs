@@ -350,7 +350,7 @@ impl<R: Real, S: Shapes<R>, M, P: Probe, G: Goal<R>> Search<'_, R, S, M, P, G> {
 
     /// Tests those that no structure knows of. Apart, for the room on the stack that tests of many
     /// kinds take together.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn visit_unbounded(&mut self, ids: Range<usize>)
     where
         M: Mailbox,

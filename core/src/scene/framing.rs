@@ -80,10 +80,9 @@ impl<R: Real> Framing<R> {
                 Interval::new(asked.min.ldexp(-exponent), asked.max.ldexp(-exponent));
             framing.exponent = exponent;
         }
-        let scaled = |origin: Vec3<R>| Ray::from(origin, direction, origin.max_abs());
         if origin.max_abs() > far {
             let around = scene.bounds().grown(far);
-            framing.ray = scaled(origin).unwrap_or(ray);
+            framing.ray = moved(&ray, origin, direction);
             let slopes = Slopes::of(&framing.ray);
             match slopes.clip(around.lo, around.hi, -R::MAX, R::MAX) {
                 Some((enter, _)) => {
@@ -99,7 +98,7 @@ impl<R: Real> Framing<R> {
                 None => framing.near = false,
             }
         }
-        framing.ray = scaled(origin).unwrap_or(ray).with_slack(scene.slack()).leaving(ray.source());
+        framing.ray = moved(&ray, origin, direction);
         framing
     }
 
@@ -126,6 +125,13 @@ impl<R: Real> Framing<R> {
         let t = (t + self.shift).ldexp(self.exponent);
         t.clamp(asked.min.next_up(), asked.max.next_down())
     }
+}
+
+/// A ray like another one, from elsewhere.
+#[inline(never)]
+fn moved<R: Real>(ray: &Ray<R>, origin: Vec3<R>, direction: Vec3<R>) -> Ray<R> {
+    let moved = Ray::from(origin, direction, origin.max_abs()).unwrap_or(*ray);
+    moved.with_slack(ray.slack()).leaving(ray.source())
 }
 
 /// Whether a line meets a box.

@@ -120,7 +120,7 @@ impl<R: Real> Shape<R> for Cylinder<R> {
         frame.select(crossings, ray, &self.hull(), (min, max))
     }
 
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn normal(&self, ray: &Ray<R>, t: R) -> Vec3<R> {
         match self.hull().place(self.crossings(ray, &Length::of(ray)), ray, t) {
             (Part::Base, _) => -self.axis,

@@ -66,7 +66,10 @@ impl<'a, R: Real> Polygon<'a, R> {
     }
 
     /// Where a ray meets its plane. Apart from the outline where calls cost little, for the stack.
-    #[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
+    #[cfg_attr(
+        not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
+        inline(never)
+    )]
     fn parameter(&self, ray: &Ray<R>) -> Option<R> {
         let first = *self.vertices.first()?;
         let n = self.normal;
@@ -77,7 +80,10 @@ impl<'a, R: Real> Polygon<'a, R> {
     }
 
     /// Whether the line of the ray passes through it.
-    #[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
+    #[cfg_attr(
+        not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
+        inline(never)
+    )]
     fn surrounds(&self, shear: &Shear<R>) -> bool {
         let Some(mut a) = self.vertices.last() else { return false };
         let mut was_above = shear.second(a) > R::ZERO;
@@ -161,7 +167,7 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
         (t > min && t <= max && self.surrounds(shear)).then_some(t)
     }
 
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn normal(&self, _ray: &Ray<R>, _t: R) -> Vec3<R> {
         self.normal
     }

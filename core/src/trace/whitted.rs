@@ -131,10 +131,8 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
         match self.settings.max_depth {
             0 | 1 => self.color_within::<P, 1>(ray, probe),
-            2 => self.color_within::<P, 2>(ray, probe),
-            3 => self.color_within::<P, 3>(ray, probe),
-            4 => self.color_within::<P, 4>(ray, probe),
-            5 => self.color_within::<P, 5>(ray, probe),
+            2 | 3 => self.color_within::<P, 3>(ray, probe),
+            4 | 5 => self.color_within::<P, 5>(ray, probe),
             _ => self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe),
         }
     }
@@ -181,7 +179,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     // Where there is enough of it the calls are saved.
 
     /// Where a ray meets something.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn meet<P: Probe>(&mut self, now: &Pending<R>, probe: &mut P) -> Option<Hit<R>> {
         let (scene, mailbox) = (self.scene, &mut self.mailbox);
         let hit = self.accel.nearest(scene, &now.ray, Interval::RAY, mailbox, probe);
@@ -192,7 +190,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 
     /// What the last one of some rays sees where it meets something, without what the rays that go on
     /// from there will see. These take its place.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn follow<P: Probe>(
         &mut self,
         rays: &mut VecView<Pending<R>>,
@@ -224,7 +222,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     }
 
     /// Puts those rays in the place of the last one that go on from where it has arrived.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn go_on(
         &self,
         rays: &mut VecView<Pending<R>>,
@@ -288,7 +286,10 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     }
 }
 
-#[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
+#[cfg_attr(
+    not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
+    inline(never)
+)]
 fn surface<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     ray: &Ray<R>,
@@ -345,7 +346,10 @@ type Spawned<R> = Option<(Ray<R>, R)>;
 
 impl<R: Real> Arrival<'_, R> {
     /// The ray to a light; `None` where it can be left out.
-    #[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
+    #[cfg_attr(
+        not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
+        inline(never)
+    )]
     fn towards(&self, light: &Light<R>, skips: Skips) -> Option<Towards<R>> {
         let towards = R::towards(self.origin, light.position);
         let zero = R::Wide::default();
@@ -373,7 +377,10 @@ impl<R: Real> Arrival<'_, R> {
     }
 
     /// What the surface sends back of white light from a direction of length 1.
-    #[cfg_attr(not(any(target_pointer_width = "64", target_abi = "eabihf")), inline(never))]
+    #[cfg_attr(
+        not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
+        inline(never)
+    )]
     fn reflected(&self, towards: Vec3<R>) -> Vec3<R> {
         let Material { diffuse, specular, shine, .. } = *self.material;
         let color = self.material.color_at(self.surface.point, self.surface.normal);
