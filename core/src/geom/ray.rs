@@ -55,7 +55,7 @@ impl<R: Real> Ray<R> {
 
     /// A ray from a point whose coordinates are at most `reach`; if one is infinite or not a number,
     /// then `reach` is, too. The scene that it is shot into gives it its slack.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn from(origin: Vec3<R>, direction: Vec3<R>, reach: R) -> Option<Self> {
         let squared = R::narrow(direction.dot(direction));
         let is_ordinary = R::is_ordinary(squared) && reach < R::INFINITY;

@@ -129,11 +129,15 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 
     /// The colour that a ray from the eye sees, not limited to 1.
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
-        match self.settings.max_depth {
-            0 | 1 => self.color_within::<P, 1>(ray, probe),
-            2 | 3 => self.color_within::<P, 3>(ray, probe),
-            4 | 5 => self.color_within::<P, 5>(ray, probe),
-            _ => self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe),
+        let depth = self.settings.max_depth;
+        if depth <= 1 {
+            self.color_within::<P, 1>(ray, probe)
+        } else if depth <= 3 {
+            self.color_within::<P, 3>(ray, probe)
+        } else if depth <= 5 {
+            self.color_within::<P, 5>(ray, probe)
+        } else {
+            self.color_within::<P, { MOST_DEPTH as usize }>(ray, probe)
         }
     }
 
