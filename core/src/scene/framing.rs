@@ -34,8 +34,8 @@ impl<R: Real> Framing<R> {
     /// S. Gottschalk, M. Lin, D. Manocha, "OBBTree: a hierarchical structure for rapid interference
     /// detection", SIGGRAPH 1996: a line and a box are apart if they are so across one of the
     /// products of the line's direction and the box's edges. No division, and it is right for lines
-    /// along axes as it stands. Its rounding errors are below 12 units in the last place of the
-    /// distances involved, doubled as they are here, of the 32 by which they are grown.
+    /// along axes as it stands. Distances are doubled here: rounding adds up to less than 6 units in
+    /// their last place, and the box is larger by 16, besides the pad.
     #[inline(always)]
     pub(crate) fn passes_by<S: Shapes<R>>(scene: &Scene<'_, R, S>, ray: &Ray<R>) -> bool {
         let room = scene.bounds().grown(scene.pad() + R::ulps_at(8, ray.reach()));
