@@ -4,7 +4,7 @@
 //! known by its numbers, not by where a point happens to lie: so neither steps nor shapes can drift.
 
 use crate::geom::{Aabb, Ray, Slopes};
-use crate::num::{Axis, Cells, Progress, Real, Vec3, Vector};
+use crate::num::{Axis, Cells, Halves, Progress, Real, Vec3, Vector};
 
 /// Cells per axis at most: coordinates of cells stay exact in every number type.
 pub(crate) const MOST_CELLS: i32 = 1 << 20;
@@ -107,6 +107,38 @@ impl<R: Real> Lattice<R> {
             }
         })
     }
+
+    /// A ray that is inside behind parameter `enter`, seen along each of the three axes; of a lattice
+    /// of 2^`deepest` cells along each.
+    pub(crate) fn halved(
+        &self,
+        ray: &Ray<R>,
+        slopes: &Slopes<R>,
+        enter: R,
+        deepest: u32,
+    ) -> [Halved<R>; 3] {
+        let [cx, cy, cz] = &self.cells;
+        [(Axis::X, cx), (Axis::Y, cy), (Axis::Z, cz)].map(|(axis, cells)| {
+            let from = self.bounds.lo.along(axis) - ray.origin().along(axis);
+            let backward = slopes.sign(axis) < 0;
+            match R::Progress::new(slopes.along(axis), from, cells, 1 << deepest) {
+                Some(walls) => {
+                    let (halves, first) = walls.halves(backward, deepest);
+                    Halved { backward, halves, first }
+                }
+                None => {
+                    let [x, y, z] = self.cell_of(ray.at(enter));
+                    let cell = match axis {
+                        Axis::X => x,
+                        Axis::Y => y,
+                        Axis::Z => z,
+                    };
+                    let (halves, first) = Halves::standing(cell, deepest);
+                    Halved { backward: false, halves, first }
+                }
+            }
+        })
+    }
 }
 
 /// A ray's way along one axis of a lattice, seen as it goes.
@@ -146,16 +178,26 @@ impl<R: Real> Track<R> {
     pub(crate) fn exit(&self, first: i32, count: i32) -> R {
         self.crossing(if self.sign > 0 { first + count } else { first })
     }
-
-    /// For a ray that does not move along this axis and is in cell `c`: walls up to that one have
-    /// been passed for ever, those beyond it never will be.
-    pub(crate) fn standing(self, c: i32) -> Self {
-        if self.sign != 0 {
-            return self;
-        }
-        Self { sign: 0, walls: R::Progress::standing(c) }
-    }
 }
+
+/// A ray's way along one axis of a lattice whose cells are halved.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Halved<R: Real> {
+    /// Whether cell numbers shrink: it comes to upper halves first.
+    pub(crate) backward: bool,
+    pub(crate) halves: HalvesOf<R>,
+    /// Where it meets the first wall.
+    pub(crate) first: Middle<R>,
+}
+
+/// See [`Progress::Halves`].
+pub(crate) type HalvesOf<R> = <<R as Real>::Progress as Progress<R>>::Halves;
+
+/// See [`Halves::Middle`].
+pub(crate) type Middle<R> = <HalvesOf<R> as Halves<R>>::Middle;
+
+/// See [`Halves::Corner`].
+pub(crate) type Corner<R> = <HalvesOf<R> as Halves<R>>::Corner;
 
 /// The box of a structure's root: that of its shapes, a little larger, so that no face of a shape
 /// lies in an outer wall and scenes without thickness get some.

@@ -1,6 +1,6 @@
 //! `f32` and `f64` as [`Real`]. `f64` is the reference on the host.
 
-use super::{Cells, Progress, Real, Reciprocal, Vector, power, sqrt};
+use super::{Cells, Halves, Progress, Real, Reciprocal, Vector, power, sqrt};
 
 macro_rules! float {
     ($f:ident, $vec3:ty, $bits:ident, $mantissa:expr, $sqrt:path) => {
@@ -188,6 +188,7 @@ macro_rules! float {
             type Cells = FloatCells<$f>;
             /// To convert a whole number takes longer than to add 1.
             type Count = $f;
+            type Halves = Self;
 
             fn new(inverse: $f, from: $f, cells: &FloatCells<$f>, count: i32) -> Option<Self> {
                 let walls = Self { start: from * inverse, width: cells.width * inverse };
@@ -216,10 +217,6 @@ macro_rules! float {
             }
             fn never() -> Self {
                 Self { start: $f::INFINITY, width: 0.0 }
-            }
-            fn standing(cell: i32) -> Self {
-                const WIDTH: $f = $f::MAX / (1 << 21) as $f;
-                Self { start: -(WIDTH * (cell as $f + 0.5)), width: WIDTH }
             }
             #[inline(always)]
             fn at(&self, i: i32) -> $f {
@@ -251,6 +248,40 @@ macro_rules! float {
                     start: self.start + self.width * origin as $f,
                     width: self.width * power_of_two(shift) as $f,
                 }
+            }
+            #[inline(always)]
+            fn halves(&self, _falls: bool, _deepest: u32) -> (Self, $f) {
+                (*self, 0.0)
+            }
+        }
+
+        /// Every wall is computed from its number.
+        impl Halves<$f> for FloatProgress<$f> {
+            type Middle = $f;
+            type Corner = i32;
+
+            fn standing(cell: i32, _deepest: u32) -> (Self, $f) {
+                const WIDTH: $f = $f::MAX / (1 << 21) as $f;
+                (Self { start: -(WIDTH * (cell as $f + 0.5)), width: WIDTH }, 0.0)
+            }
+            #[inline(always)]
+            fn corner(corner: i32, upper: bool, shift: u32) -> i32 {
+                (corner >> shift >> 1 << 1 | i32::from(upper)) << shift
+            }
+            #[inline(always)]
+            fn middle(
+                &self,
+                _above: $f,
+                _passed: bool,
+                corner: i32,
+                level: u32,
+                deepest: u32,
+            ) -> $f {
+                self.at(corner + (1 << deepest.saturating_sub(level + 1)))
+            }
+            #[inline(always)]
+            fn pass(&self, middle: $f, t: $f, exit: $f) -> (bool, $f) {
+                (middle <= t, if middle > t && middle < exit { middle } else { exit })
             }
         }
 

@@ -34,6 +34,8 @@ pub trait Progress<R: Real>: Copy + Debug + Default {
     type Cells;
     /// The number of a wall as it is quickest to count and to compute with.
     type Count: Copy + Debug;
+    /// The same walls for a descent.
+    type Halves: Halves<R>;
 
     /// `count` walls, of which the first is `from` away; `None` where the ray does not move.
     fn new(reciprocal: Self::Reciprocal, from: R, cells: &Self::Cells, count: i32) -> Option<Self>;
@@ -45,8 +47,6 @@ pub trait Progress<R: Real>: Copy + Debug + Default {
     fn falls(&self) -> bool;
     /// Every wall is infinitely far away.
     fn never() -> Self;
-    /// Walls up to number `cell` have been passed for ever, those beyond it never will be.
-    fn standing(cell: i32) -> Self;
     /// The parameter of wall number `i`.
     fn at(&self, i: i32) -> R;
     /// The same walls with their numbers times `sign`: for a ray that moves towards smaller numbers,
@@ -62,4 +62,41 @@ pub trait Progress<R: Real>: Copy + Debug + Default {
     fn at_count(&self, count: Self::Count) -> R;
     /// Numbers from wall `origin`, every 2^`shift`-th wall.
     fn rebased(&self, origin: i32, shift: u8) -> Self;
+    /// Those of 2^`deepest` cells, and where the ray meets the first of them; `falls` as in
+    /// [`Progress::falls`].
+    fn halves(
+        &self,
+        falls: bool,
+        deepest: u32,
+    ) -> (Self::Halves, <Self::Halves as Halves<R>>::Middle);
+}
+
+/// Where a ray meets the middle walls of cells that are halved level by level, along one axis and
+/// seen as the ray goes: it comes to a cell's lower half first.
+pub trait Halves<R: Real>: Copy + Debug + Default {
+    /// Where it meets the wall in the middle of a cell.
+    type Middle: Copy + Debug + Default;
+    /// What of the place of a cell this is computed from.
+    type Corner: Copy + Debug + Default;
+
+    /// Along an axis that the ray does not move along, in cell `cell` of 2^`deepest`: walls up to
+    /// that one have been passed for ever, those beyond it never will be.
+    fn standing(cell: i32, deepest: u32) -> (Self, Self::Middle);
+    /// Where the halves of a cell with that corner begin: of the upper one, or of the lower one. Their
+    /// edges are 2^`shift` cells.
+    fn corner(corner: Self::Corner, upper: bool, shift: u32) -> Self::Corner;
+    /// Of a cell at a level, its corner, and the half of the cell above that it is, the second one if
+    /// `passed`, in the order of the ray. The root, at level 0, is the second half of what has its
+    /// middle in the first wall.
+    fn middle(
+        &self,
+        above: Self::Middle,
+        passed: bool,
+        corner: Self::Corner,
+        level: u32,
+        deepest: u32,
+    ) -> Self::Middle;
+    /// Whether the wall has been passed at parameter `t`, and what of `exit` and its own parameter
+    /// comes first beyond that.
+    fn pass(&self, middle: Self::Middle, t: R, exit: R) -> (bool, R);
 }

@@ -27,7 +27,7 @@ mod vector;
 
 pub use fixed::Fixed;
 pub use float::FloatProgress;
-pub use linear::{Cells, Progress, Reciprocal};
+pub use linear::{Cells, Halves, Progress, Reciprocal};
 pub use vector::{Axis, Vector};
 
 use bytemuck::Pod;

@@ -14,7 +14,8 @@
 //! | reciprocal of a direction | 31 bits and an exponent | 2^-1 to 2^28 | 2^-31 of its value |
 //! | slope of a ray | 31 bits after the point | ±1 | 2^-31 |
 //! | wall of a lattice, as a ray parameter | 64 bits and an exponent | all of them | 2^-30 of a step of the coordinates |
-//! | cosine power ([`Exponent`]) | U22F10 | 0 to 4 million | 2^-10 |
+//! | wall of a cell that is halved | 32 bits and an exponent | those near a ray | 2^-28 or 2^-27 along the axis |
+| cosine power ([`Exponent`]) | U22F10 | 0 to 4 million | 2^-10 |
 //! | place of a light ([`FarPoint`]) | three I4F28 and an exponent | 2^30 | 2^-28 of its distance |
 //!
 //! One step of a coordinate is 2^-28: 8 times finer than that of an `f32` between 1/4 and 1/2.
@@ -46,7 +47,7 @@ mod vector;
 mod whole;
 
 pub use chord::Course;
-pub use linear::{Cells, Progress, Reciprocal, Slope};
+pub use linear::{Cells, Halves, Progress, Reciprocal, Slope};
 pub use vector::{FarPoint, Vec3};
 
 use crate::num::{self, Real, Vector};

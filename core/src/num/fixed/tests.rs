@@ -1,5 +1,5 @@
 use super::*;
-use crate::num::{Cells as _, Progress as _};
+use crate::num::{Cells as _, Halves as _, Progress as _};
 use crate::shape::testing::Random;
 
 extern crate std;
@@ -141,6 +141,56 @@ fn walls_are_where_they_should_be() {
         let index = f64::from(cells.index(x));
         let margin = 1.0e-3 + f64::from(count) / extent.to_f64() * STEP;
         assert!(index <= exact + margin && index + 1.0 >= exact - margin, "{index} {exact}");
+    }
+}
+
+#[test]
+fn walls_of_halved_cells_are_where_they_should_be() {
+    let mut random = Random(26);
+    for i in 0..100_000_u32 {
+        let deepest = 1 + i % 10;
+        let extent = Fixed::new(f64::from(random.within(0.001, 1.0)));
+        let cells = Cells::new(extent, 1 << deepest);
+        let (d, from) = (any(&mut random, 1.7), any(&mut random, 2.5));
+        let Some(walls) = Progress::new(Reciprocal::of(d), from, &cells, 1) else { continue };
+        let falls = d < Fixed::ZERO;
+        let (halves, mut middle) = walls.halves(falls, deepest);
+        let (mut lower, mut passed) = (0, true);
+        for level in 0..deepest {
+            middle = halves.middle(middle, passed, (), level, deepest);
+            let wall = f64::from(lower + (1 << (deepest - level - 1))) / f64::from(1 << deepest);
+            let part = if falls { 1.0 - wall } else { wall };
+            let exact = (from.to_f64() + extent.to_f64() * part) / d.to_f64();
+            let margin = 24.0 * STEP / d.to_f64().abs();
+            for (t, is_past) in [(exact - margin, false), (exact + margin, true)] {
+                if t.abs() < 5.1 {
+                    let (past, exit) = halves.pass(middle, Fixed::new(t), Fixed::MAX);
+                    assert_eq!(past, is_past, "{t} {exact} {d:?}");
+                    let off = (exit.to_f64() - exact).abs();
+                    assert!(past || exact > 7.0 || off <= margin, "{exit:?} {exact} {d:?}");
+                }
+            }
+            passed = random.signed() > 0.0;
+            lower += i32::from(passed) << (deepest - level - 1);
+        }
+    }
+    // Where the ray stays in a cell, it is always behind that cell's lower wall and never at its upper.
+    for (cell, deepest) in [(0, 3), (5, 3), (7, 3), (0, 10), (640, 10), (1023, 10)] {
+        let (halves, mut middle) = Halves::standing(cell, deepest);
+        let (mut lower, mut passed) = (0, true);
+        for level in 0..deepest {
+            middle = halves.middle(middle, passed, (), level, deepest);
+            for t in [Fixed::from_i32(-5), Fixed::ZERO, Fixed::from_i32(5)] {
+                let exit = Fixed::from_i32(6);
+                let (past, left) = halves.pass(middle, t, exit);
+                let wall = lower + (1 << (deepest - level - 1));
+                assert_eq!((past, left), (wall <= cell, exit), "{cell} {wall}");
+            }
+            let wall = lower + (1 << (deepest - level - 1));
+            passed = wall <= cell;
+            lower = if passed { wall } else { lower };
+        }
+        assert_eq!(lower, cell);
     }
 }
 

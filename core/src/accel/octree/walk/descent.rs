@@ -7,37 +7,29 @@
 
 use super::Leaves;
 use crate::accel::Id;
-use crate::accel::lattice::Track;
+use crate::accel::lattice::{Corner, Halved, HalvesOf, Middle};
 use crate::accel::octree::code::DEEPEST;
 use crate::accel::octree::{Octree, Storage};
 use crate::geom::{Ray, Slopes};
-use crate::num::Real;
+use crate::num::{Halves, Real};
 use crate::probe::Probe;
 
 /// A divided cell that the ray is in.
 #[derive(Clone, Copy)]
-struct Open<F, R> {
+struct Open<F, R: Real> {
     children: F,
-    /// Parameters of its middle walls.
-    middle: [R; 3],
+    /// Where the ray meets its middle walls.
+    middle: [Middle<R>; 3],
     /// The parameter at which the ray leaves it.
     exit: R,
-}
-
-impl<F, R: Real> Open<F, R> {
-    /// The child that the ray is in behind parameter `t`, and where it leaves that.
-    fn at(&self, t: R, mirrored: u32) -> (u32, R) {
-        let [x, y, z] = self.middle;
-        let passed = u32::from(x <= t) | u32::from(y <= t) << 1 | u32::from(z <= t) << 2;
-        let first = |exit: R, wall: R| if wall > t && wall < exit { wall } else { exit };
-        (passed ^ mirrored, first(first(first(self.exit, x), y), z))
-    }
 }
 
 /// A descent under way.
 pub(super) struct Descent<'o, 'm, R: Real, I, C: Storage<'m>> {
     octree: &'o Octree<'m, R, I, C>,
-    tracks: [Track<R>; 3],
+    halves: [HalvesOf<R>; 3],
+    /// Where the ray meets the first walls.
+    first: [Middle<R>; 3],
     /// The axes, as bits of an octant, along which the ray meets the upper halves first.
     mirrored: u32,
     /// The cells above the present one, from the root.
@@ -45,9 +37,11 @@ pub(super) struct Descent<'o, 'm, R: Real, I, C: Storage<'m>> {
     depth: usize,
     /// The present cell, its least corner, and the parameters at which it is entered and left.
     cell: C::Cell,
-    corner: [i32; 3],
+    corner: [Corner<R>; 3],
     enter: R,
     exit: R,
+    /// The middle walls of the cell above that the ray has passed, as bits.
+    passed: u32,
     /// Whether it is a leaf that is done with.
     done: bool,
 }
@@ -60,26 +54,22 @@ impl<'o, 'm, R: Real, I: Id, C: Storage<'m>> Descent<'o, 'm, R, I, C> {
         enter: R,
         leave: R,
     ) -> Self {
-        let [x, y, z] = octree.lattice.tracks(ray, slopes);
-        let [cx, cy, cz] = octree.lattice.cell_of(ray.at(enter));
-        let backward = |track: Track<R>| u32::from(track.sign < 0);
+        let [x, y, z] = octree.lattice.halved(ray, slopes, enter, octree.deepest);
+        let backward = |along: Halved<R>| u32::from(along.backward);
         Self {
             octree,
-            tracks: [x.standing(cx), y.standing(cy), z.standing(cz)],
+            halves: [x.halves, y.halves, z.halves],
+            first: [x.first, y.first, z.first],
             mirrored: backward(x) | backward(y) << 1 | backward(z) << 2,
             stack: [None; DEEPEST as usize],
             depth: 0,
             cell: octree.cells.root(),
-            corner: [0; 3],
+            corner: Default::default(),
             enter,
             exit: leave,
+            passed: 7,
             done: false,
         }
-    }
-
-    /// Logarithm of the edges of the children of the last cell on the stack.
-    fn shift(&self) -> u32 {
-        self.octree.deepest.saturating_sub(self.depth as u32)
     }
 
     /// The last cell on the stack that the ray has not left yet.
@@ -93,12 +83,35 @@ impl<'o, 'm, R: Real, I: Id, C: Storage<'m>> Descent<'o, 'm, R, I, C> {
         }
     }
 
+    /// The middle walls of the present cell, from those of the cell above.
+    #[inline(always)]
+    fn middle(&self, above: [Middle<R>; 3]) -> [Middle<R>; 3] {
+        let ([hx, hy, hz], [x, y, z], [cx, cy, cz]) = (self.halves, above, self.corner);
+        let (level, deepest) = (self.depth as u32, self.octree.deepest);
+        let passed = |bit: u32| self.passed >> bit & 1 != 0;
+        [
+            hx.middle(x, passed(0), cx, level, deepest),
+            hy.middle(y, passed(1), cy, level, deepest),
+            hz.middle(z, passed(2), cz, level, deepest),
+        ]
+    }
+
     /// Goes to the child that the ray is in now.
+    #[inline(always)]
     fn go(&mut self, open: &Open<C::Family, R>) {
-        let (octant, exit) = open.at(self.enter, self.mirrored);
-        let (shift, [x, y, z]) = (self.shift(), self.corner);
-        let child = |c: i32, bit: u32| (c >> shift >> 1 << 1 | (octant >> bit & 1) as i32) << shift;
-        self.corner = [child(x, 0), child(y, 1), child(z, 2)];
+        let ([hx, hy, hz], [x, y, z], t) = (self.halves, open.middle, self.enter);
+        let (by_x, exit) = hx.pass(x, t, open.exit);
+        let (by_y, exit) = hy.pass(y, t, exit);
+        let (by_z, exit) = hz.pass(z, t, exit);
+        self.passed = u32::from(by_x) | u32::from(by_y) << 1 | u32::from(by_z) << 2;
+        let octant = self.passed ^ self.mirrored;
+        // Logarithm of the edges of the children.
+        let shift = self.octree.deepest.saturating_sub(self.depth as u32);
+        let [x, y, z] = self.corner;
+        let corner = |c: Corner<R>, bit: u32| {
+            <HalvesOf<R> as Halves<R>>::corner(c, octant >> bit & 1 != 0, shift)
+        };
+        self.corner = [corner(x, 0), corner(y, 1), corner(z, 2)];
         self.cell = C::child(open.children, octant);
         self.exit = exit;
     }
@@ -108,10 +121,12 @@ impl<'o, 'm, R: Real, I: Id, C: Storage<'m>> Descent<'o, 'm, R, I, C> {
 /// steps than walls.
 impl<'m, R: Real, I: Id, C: Storage<'m>> Leaves<R, C::Cell> for Descent<'_, 'm, R, I, C> {
     fn next(&mut self, probe: &mut impl Probe) -> Option<(C::Cell, R)> {
+        let mut above = self.first;
         if self.done {
             self.enter = self.exit;
             let open = self.last()?;
             self.go(&open);
+            above = open.middle;
         }
         loop {
             probe.step();
@@ -119,13 +134,11 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Leaves<R, C::Cell> for Descent<'_, 'm, 
                 self.done = true;
                 return Some((self.cell, self.exit));
             };
+            let open = Open { children, middle: self.middle(above), exit: self.exit };
+            *self.stack.get_mut(self.depth)? = Some(open);
             self.depth += 1;
-            let half = 1 << self.shift();
-            let ([x, y, z], [cx, cy, cz]) = (self.tracks, self.corner);
-            let middle = [x.crossing(cx + half), y.crossing(cy + half), z.crossing(cz + half)];
-            let open = Open { children, middle, exit: self.exit };
-            *self.stack.get_mut(self.depth - 1)? = Some(open);
             self.go(&open);
+            above = open.middle;
         }
     }
 }
