@@ -15,7 +15,7 @@
 //! | slope of a ray | 31 bits after the point | ±1 | 2^-31 |
 //! | wall of a lattice, as a ray parameter | 64 bits and an exponent | all of them | 2^-30 of a step of the coordinates |
 //! | wall of a cell that is halved | 32 bits and an exponent | those near a ray | 2^-28 or 2^-27 along the axis |
-| cosine power ([`Exponent`]) | U22F10 | 0 to 4 million | 2^-10 |
+//! | cosine power ([`Exponent`]) | U22F10 | 0 to 4 million | 2^-10 |
 //! | place of a light ([`FarPoint`]) | three I4F28 and an exponent | 2^30 | 2^-28 of its distance |
 //!
 //! One step of a coordinate is 2^-28: 8 times finer than that of an `f32` between 1/4 and 1/2.
