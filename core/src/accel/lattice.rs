@@ -108,36 +108,43 @@ impl<R: Real> Lattice<R> {
         })
     }
 
-    /// A ray that is inside behind parameter `enter`, seen along each of the three axes; of a lattice
-    /// of 2^`deepest` cells along each.
+    /// The part of a ray within an interval that is inside a lattice of 2^`deepest` cells along each
+    /// axis, and its way along each of the three.
     pub(crate) fn halved(
         &self,
         ray: &Ray<R>,
-        slopes: &Slopes<R>,
-        enter: R,
+        interval: Part<R>,
         deepest: u32,
-    ) -> [Halved<R>; 3] {
+    ) -> Option<([Halved<R>; 3], Part<R>)> {
         let [cx, cy, cz] = &self.cells;
-        [(Axis::X, cx), (Axis::Y, cy), (Axis::Z, cz)].map(|(axis, cells)| {
-            let from = self.bounds.lo.along(axis) - ray.origin().along(axis);
-            let backward = slopes.sign(axis) < 0;
-            match R::Progress::new(slopes.along(axis), from, cells, 1 << deepest) {
-                Some(walls) => {
-                    let (halves, first) = walls.halves(backward, deepest);
-                    Halved { backward, halves, first }
-                }
-                None => {
-                    let [x, y, z] = self.cell_of(ray.at(enter));
-                    let cell = match axis {
-                        Axis::X => x,
-                        Axis::Y => y,
-                        Axis::Z => z,
-                    };
-                    let (halves, first) = Halves::standing(cell, deepest);
-                    Halved { backward: false, halves, first }
-                }
-            }
-        })
+        let (x, part) = self.halved_along(Axis::X, cx, ray, interval, deepest)?;
+        let (y, part) = self.halved_along(Axis::Y, cy, ray, part, deepest)?;
+        let (z, part) = self.halved_along(Axis::Z, cz, ray, part, deepest)?;
+        (part.0 <= part.1).then_some(([x, y, z], part))
+    }
+
+    #[inline(always)]
+    fn halved_along(
+        &self,
+        axis: Axis,
+        cells: &R::Cells,
+        ray: &Ray<R>,
+        part: Part<R>,
+        deepest: u32,
+    ) -> Option<(Halved<R>, Part<R>)> {
+        let (o, d) = (ray.origin().along(axis), ray.direction().along(axis));
+        let lo = self.bounds.lo.along(axis);
+        let (count, backward) = (1 << deepest, d < R::ZERO);
+        let Some(walls) = R::Progress::of(d, lo - o, cells, count) else {
+            // Where it stays, it is inside or it is not.
+            let is_inside = o >= lo && o <= self.bounds.hi.along(axis);
+            let cell = cells.index(o - lo).min(count - 1).max(0);
+            let (halves, first) = Halves::standing(cell, deepest);
+            return is_inside.then_some((Halved { backward: false, halves, first }, part));
+        };
+        let (halves, first) = walls.halves(backward, deepest);
+        let part = halves.between(first, part, backward, deepest)?;
+        Some((Halved { backward, halves, first }, part))
     }
 }
 
@@ -179,6 +186,9 @@ impl<R: Real> Track<R> {
         self.crossing(if self.sign > 0 { first + count } else { first })
     }
 }
+
+/// A part of a ray, by the parameters at its ends.
+pub(crate) type Part<R> = (R, R);
 
 /// A ray's way along one axis of a lattice whose cells are halved.
 #[derive(Clone, Copy, Debug)]

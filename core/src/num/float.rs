@@ -280,6 +280,18 @@ macro_rules! float {
                 self.at(corner + (1 << deepest.saturating_sub(level + 1)))
             }
             #[inline(always)]
+            fn between(
+                &self,
+                _first: $f,
+                (enter, leave): ($f, $f),
+                falls: bool,
+                deepest: u32,
+            ) -> Option<($f, $f)> {
+                let last = self.at(1 << deepest);
+                let (near, far) = if falls { (last, self.start) } else { (self.start, last) };
+                Some((Real::max(enter, near), Real::min(leave, far)))
+            }
+            #[inline(always)]
             fn pass(&self, middle: $f, t: $f, exit: $f) -> (bool, $f) {
                 (middle <= t, if middle > t && middle < exit { middle } else { exit })
             }

@@ -96,6 +96,15 @@ pub trait Halves<R: Real>: Copy + Debug + Default {
         level: u32,
         deepest: u32,
     ) -> Self::Middle;
+    /// The part of a piece of the ray that is between the first wall and the last; of no length or
+    /// less, or `None`, where there is none. `falls` and `deepest` as in [`Progress::halves`].
+    fn between(
+        &self,
+        first: Self::Middle,
+        part: (R, R),
+        falls: bool,
+        deepest: u32,
+    ) -> Option<(R, R)>;
     /// Whether the wall has been passed at parameter `t`, and what of `exit` and its own parameter
     /// comes first beyond that.
     fn pass(&self, middle: Self::Middle, t: R, exit: R) -> (bool, R);

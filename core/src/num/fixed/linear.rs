@@ -247,6 +247,25 @@ impl num::Halves<Fixed> for Halves {
     }
 
     #[inline(always)]
+    fn between(
+        &self,
+        first: i32,
+        (enter, leave): (Fixed, Fixed),
+        _falls: bool,
+        _deepest: u32,
+    ) -> Option<(Fixed, Fixed)> {
+        let (coarse, last) = (self.coarse & 31, first + 2 * self.step);
+        // What is beyond either end may be out of range.
+        let from = enter.to_bits() >> coarse;
+        if first > leave.to_bits() >> coarse || last < from {
+            return None;
+        }
+        let enter = if first > from { Fixed::from_bits(first << coarse) } else { enter };
+        let (_, leave) = self.pass(last, enter, leave);
+        Some((enter, leave))
+    }
+
+    #[inline(always)]
     fn pass(&self, middle: i32, t: Fixed, exit: Fixed) -> (bool, Fixed) {
         let coarse = self.coarse & 31;
         if middle <= t.to_bits() >> coarse {

@@ -10,7 +10,7 @@ use crate::accel::Id;
 use crate::accel::lattice::{Corner, Halved, HalvesOf, Middle};
 use crate::accel::octree::code::DEEPEST;
 use crate::accel::octree::{Octree, Storage};
-use crate::geom::{Ray, Slopes};
+use crate::geom::Ray;
 use crate::num::{Halves, Real};
 use crate::probe::Probe;
 
@@ -47,16 +47,17 @@ pub(super) struct Descent<'o, 'm, R: Real, I, C: Storage<'m>> {
 }
 
 impl<'o, 'm, R: Real, I: Id, C: Storage<'m>> Descent<'o, 'm, R, I, C> {
+    /// Of a ray that meets the octree within an interval.
+    #[inline(never)]
     pub(super) fn new(
         octree: &'o Octree<'m, R, I, C>,
         ray: &Ray<R>,
-        slopes: &Slopes<R>,
-        enter: R,
-        leave: R,
-    ) -> Self {
-        let [x, y, z] = octree.lattice.halved(ray, slopes, enter, octree.deepest);
+        interval: (R, R),
+    ) -> Option<Self> {
+        let (ways, (enter, leave)) = octree.lattice.halved(ray, interval, octree.deepest)?;
+        let [x, y, z] = ways;
         let backward = |along: Halved<R>| u32::from(along.backward);
-        Self {
+        Some(Self {
             octree,
             halves: [x.halves, y.halves, z.halves],
             first: [x.first, y.first, z.first],
@@ -69,7 +70,7 @@ impl<'o, 'm, R: Real, I: Id, C: Storage<'m>> Descent<'o, 'm, R, I, C> {
             exit: leave,
             passed: 7,
             done: false,
-        }
+        })
     }
 
     /// The last cell on the stack that the ray has not left yet.

@@ -62,23 +62,22 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for By<'_, Octree<'m, R, I, C>
             return octree.walk(ray, visitor);
         }
         octree.aside.visit(visitor);
-        let slopes = Slopes::of(ray);
-        let part = octree.lattice.clip(&slopes, visitor.start(), visitor.limit());
-        let Some((enter, leave)) = part else { return };
-        match self.walk {
-            Walk::Restart => one_by_one(
-                octree,
-                &mut Places::<_, _, _, false>::new(octree, ray, &slopes, enter),
-                visitor,
-            ),
-            Walk::Neighbours => one_by_one(
-                octree,
-                &mut Places::<_, _, _, true>::new(octree, ray, &slopes, enter),
-                visitor,
-            ),
-            Walk::Descent | Walk::Segments => {
-                in_pieces(octree, Descent::new(octree, ray, &slopes, enter, leave), visitor);
+        let interval = (visitor.start(), visitor.limit());
+        if self.walk == Walk::Segments {
+            if let Some(descent) = Descent::new(octree, ray, interval) {
+                in_pieces(octree, descent, visitor);
             }
+            return;
+        }
+        let slopes = Slopes::of(ray);
+        let part = octree.lattice.clip(&slopes, interval.0, interval.1);
+        let Some((enter, _)) = part else { return };
+        if self.walk == Walk::Restart {
+            let places = &mut Places::<_, _, _, false>::new(octree, ray, &slopes, enter);
+            one_by_one(octree, places, visitor);
+        } else {
+            let places = &mut Places::<_, _, _, true>::new(octree, ray, &slopes, enter);
+            one_by_one(octree, places, visitor);
         }
     }
 }
@@ -86,24 +85,11 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for By<'_, Octree<'m, R, I, C>
 impl<'m, R: Real, I: Id, C: Storage<'m>> Accel<R> for Octree<'m, R, I, C> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         self.aside.visit(visitor);
-        let mut descent = enter(self, ray, visitor.start(), visitor.limit());
+        let mut descent = Descent::new(self, ray, (visitor.start(), visitor.limit()));
         if let Some(descent) = &mut descent {
             one_by_one(self, descent, visitor);
         }
     }
-}
-
-/// The descent of a ray that meets the octree.
-#[inline(always)]
-fn enter<'o, 'm, R: Real, I: Id, C: Storage<'m>>(
-    octree: &'o Octree<'m, R, I, C>,
-    ray: &Ray<R>,
-    start: R,
-    limit: R,
-) -> Option<Descent<'o, 'm, R, I, C>> {
-    let slopes = Slopes::of(ray);
-    let (enter, leave) = octree.lattice.clip(&slopes, start, limit)?;
-    Some(Descent::new(octree, ray, &slopes, enter, leave))
 }
 
 /// A leaf, and the parameter at which the ray leaves it.
