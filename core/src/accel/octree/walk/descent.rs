@@ -121,7 +121,7 @@ impl<'o, 'm, R: Real, I: Id, C: Storage<'m>> Descent<'o, 'm, R, I, C> {
 /// Every step ends at a wall beyond the one before, or at the end of the ray: there are no more
 /// steps than walls.
 impl<'m, R: Real, I: Id, C: Storage<'m>> Leaves<R, C::Cell> for Descent<'_, 'm, R, I, C> {
-    fn next(&mut self, probe: &mut impl Probe) -> Option<(C::Cell, R)> {
+    fn next(&mut self, probe: &mut impl Probe) -> Option<C::Cell> {
         let mut above = self.first;
         if self.done {
             self.enter = self.exit;
@@ -133,7 +133,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Leaves<R, C::Cell> for Descent<'_, 'm, 
             probe.step();
             let Some(children) = self.octree.cells.open(self.cell) else {
                 self.done = true;
-                return Some((self.cell, self.exit));
+                return Some(self.cell);
             };
             let open = Open { children, middle: self.middle(above), exit: self.exit };
             *self.stack.get_mut(self.depth)? = Some(open);
@@ -141,5 +141,9 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Leaves<R, C::Cell> for Descent<'_, 'm, 
             self.go(&open);
             above = open.middle;
         }
+    }
+
+    fn exit(&self) -> R {
+        self.exit
     }
 }

@@ -98,7 +98,9 @@ type Piece<C, R> = (C, R);
 /// Finds the leaves of a ray, in order.
 trait Leaves<R, C> {
     /// The next leaf.
-    fn next(&mut self, probe: &mut impl Probe) -> Option<Piece<C, R>>;
+    fn next(&mut self, probe: &mut impl Probe) -> Option<C>;
+    /// The parameter at which the ray leaves it.
+    fn exit(&self) -> R;
 }
 
 /// Tests a leaf's list; false when nothing beyond the leaf is of interest.
@@ -121,8 +123,8 @@ fn one_by_one<'m, R: Real, I: Id, C: Storage<'m>, V: Visitor<R>>(
     leaves: &mut impl Leaves<R, C::Cell>,
     visitor: &mut V,
 ) {
-    while let Some(piece) = leaves.next(visitor.probe()) {
-        if !test(octree, piece, visitor) {
+    while let Some(leaf) = leaves.next(visitor.probe()) {
+        if !test(octree, (leaf, leaves.exit()), visitor) {
             return;
         }
     }
@@ -137,7 +139,7 @@ fn in_pieces<'m, R: Real, I: Id, C: Storage<'m>, V: Visitor<R>>(
     let mut pieces = [None; SEGMENTS];
     loop {
         for piece in &mut pieces {
-            *piece = leaves.next(visitor.probe());
+            *piece = leaves.next(visitor.probe()).map(|leaf| (leaf, leaves.exit()));
             if piece.is_none() {
                 break;
             }

@@ -91,7 +91,7 @@ impl<'o, 'm, R: Real, I: Id, C: Storage<'m>, const NEAR: bool> Places<'o, 'm, R,
 impl<'m, R: Real, I: Id, C: Storage<'m>, const NEAR: bool> Leaves<R, C::Cell>
     for Places<'_, 'm, R, I, C, NEAR>
 {
-    fn next(&mut self, probe: &mut impl Probe) -> Option<(C::Cell, R)> {
+    fn next(&mut self, probe: &mut impl Probe) -> Option<C::Cell> {
         if let Some((base, size, axis)) = self.leaf {
             let next = self.beyond(base, size, axis)?;
             let [x, y, z] = next;
@@ -118,6 +118,10 @@ impl<'m, R: Real, I: Id, C: Storage<'m>, const NEAR: bool> Leaves<R, C::Cell>
         // Rounding may put a wall a little before the one just passed; never go back.
         self.t = self.t.max(exit);
         self.leaf = Some((base, size, axis));
-        Some((cell, self.t))
+        Some(cell)
+    }
+
+    fn exit(&self) -> R {
+        self.t
     }
 }
