@@ -69,8 +69,8 @@ impl<R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox, P: Sampling<R>> Renderer<'_
             if line.0 != y {
                 *line = (y, camera.line(-across(y, *height)));
             }
-            let ray = camera.ray_in(&line.1, across(x, *width));
-            ray.map_or_else(Vec3::<R>::default, |ray| tracer.color(ray, probe))
+            let x = across(x, *width);
+            tracer.color_from(&|| camera.ray_in(&line.1, x), probe)
         };
         sampling.pixel(x, y, &mut see)
     }

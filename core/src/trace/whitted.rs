@@ -129,6 +129,16 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 
     /// The colour that a ray from the eye sees, not limited to 1.
     pub fn color<P: Probe>(&mut self, ray: Ray<R>, probe: &mut P) -> Vec3<R> {
+        self.color_from(&|| Some(ray), probe)
+    }
+
+    /// The colour that a ray sees which is made where it is followed from: made before, it would lie on
+    /// the stack a second time. Without a ray, black.
+    pub(super) fn color_from<P: Probe>(
+        &mut self,
+        ray: &impl Fn() -> Option<Ray<R>>,
+        probe: &mut P,
+    ) -> Vec3<R> {
         let depth = self.settings.max_depth;
         if depth <= 1 {
             self.color_within::<P, 1>(ray, probe)
@@ -145,22 +155,24 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     #[inline(never)]
     fn color_within<P: Probe, const DEPTH: usize>(
         &mut self,
-        ray: Ray<R>,
+        ray: &impl Fn() -> Option<Ray<R>>,
         probe: &mut P,
     ) -> Vec3<R> {
-        let mut rays = Vec::<_, DEPTH>::new();
-        let ray = ray.with_slack(self.scene.slack());
-        let _ = rays.push(Pending { ray, weight: R::ONE, depth: 1 });
-        self.color_of_trees(&mut rays, probe)
+        self.color_of_tree(&mut Vec::<_, DEPTH>::new(), ray, probe)
     }
 
-    /// The sum over the trees of some rays.
+    /// The sum over the tree of a ray, on a stack that is empty.
     #[inline(never)]
-    fn color_of_trees<P: Probe>(
+    fn color_of_tree<P: Probe>(
         &mut self,
         rays: &mut VecView<Pending<R>>,
+        ray: &impl Fn() -> Option<Ray<R>>,
         probe: &mut P,
     ) -> Vec3<R> {
+        if let Some(ray) = ray() {
+            let ray = ray.with_slack(self.scene.slack());
+            let _ = rays.push(Pending { ray, weight: R::ONE, depth: 1 });
+        }
         let mut color = Vec3::<R>::default();
         // The last one is under way, and lies where it is: a copy would take as much again.
         while let Some(now) = rays.last() {
@@ -209,16 +221,16 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
             rays.pop();
             return scene.background();
         };
-        let material = scene.material(hit.id);
         let Surface { point, normal, error, reach, .. } = *surface;
+        let material = scene.material(hit.id);
         let origin = R::beside(point, normal, error, reach);
         let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
         let mirrored =
             if mirrors { mirrored(now.ray.direction(), surface) } else { Vec3::<R>::default() };
-        let arrival = Arrival { ray: &now.ray, surface, material, origin, mirrored };
-        let color = self.local(&arrival, now.weight, probe);
+        let arrival = Arrival { surface, material, origin, mirrored };
+        let color = self.local(now, &arrival, probe);
         if mirrors && now.depth < self.settings.max_depth {
-            self.go_on(rays, surface, material, origin, mirrored);
+            self.go_on(rays, &arrival);
         } else {
             rays.pop();
         }
@@ -227,18 +239,10 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
 
     /// Puts those rays in the place of the last one that go on from where it has arrived.
     #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
-    fn go_on(
-        &self,
-        rays: &mut VecView<Pending<R>>,
-        surface: &Surface<R>,
-        material: &Material<R>,
-        origin: Vec3<R>,
-        mirrored: Vec3<R>,
-    ) {
+    fn go_on(&self, rays: &mut VecView<Pending<R>>, arrival: &Arrival<'_, R>) {
         let Some(Pending { ray, weight, depth }) = rays.last() else { return };
-        let arrival = Arrival { ray, surface, material, origin, mirrored };
         let Settings { secondary, cutoff, .. } = self.settings;
-        let (through, mirrored) = arrival.spawn(secondary);
+        let (through, mirrored) = arrival.spawn(ray, secondary);
         let (before, depth) = (*weight, depth + 1);
         rays.pop();
         let mut push = |spawned: Spawned<R>| {
@@ -255,20 +259,25 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     }
 
     /// Light that comes straight from the lamps.
-    fn local<P: Probe>(&mut self, arrival: &Arrival<'_, R>, weight: R, probe: &mut P) -> Vec3<R> {
+    fn local<P: Probe>(
+        &mut self,
+        now: &Pending<R>,
+        arrival: &Arrival<'_, R>,
+        probe: &mut P,
+    ) -> Vec3<R> {
         let mut color = Vec3::<R>::default();
         for (i, light) in self.scene.lights().iter().enumerate() {
             let Settings { cutoff, skips, .. } = self.settings;
-            let towards = arrival.towards(light, skips.chosen());
+            let towards = arrival.towards(&now.ray, light, skips.chosen());
             let Some(Towards { ray, distance, faces }) = &towards else { continue };
-            let at_most = |light| arrival.at_most(ray, light) * weight;
+            let at_most = |light| arrival.at_most(ray, light) * now.weight;
             let faint = *faces && cutoff > R::ZERO && at_most(light) < cutoff;
             let blocked = !faint && self.is_blocked(i, ray, *distance, probe);
             if blocked || !*faces {
                 continue;
             }
             let light = if faint { light.color * R::HALF } else { light.color };
-            color = color + arrival.reflected(ray.direction()).scale(light);
+            color = color + arrival.reflected(&now.ray, ray.direction()).scale(light);
         }
         color
     }
@@ -327,7 +336,6 @@ fn mirrored_flat<R: Real>(direction: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
 
 /// A ray's arrival at a surface.
 struct Arrival<'a, R: Real> {
-    ray: &'a Ray<R>,
     surface: &'a Surface<R>,
     material: &'a Material<R>,
     /// Where rays on the near side start.
@@ -354,7 +362,7 @@ impl<R: Real> Arrival<'_, R> {
         not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
         inline(never)
     )]
-    fn towards(&self, light: &Light<R>, skips: Skips) -> Option<Towards<R>> {
+    fn towards(&self, ray: &Ray<R>, light: &Light<R>, skips: Skips) -> Option<Towards<R>> {
         let towards = R::towards(self.origin, light.position);
         let zero = R::Wide::default();
         let faces = |n: Vec3<R>| n.dot(towards) > zero;
@@ -369,7 +377,7 @@ impl<R: Real> Arrival<'_, R> {
         }
         let unit = towards.unit()?;
         let Surface { reach, left, .. } = *self.surface;
-        let ray = self.ray.turned(self.origin, unit, R::ONE, reach, left)?;
+        let ray = ray.turned(self.origin, unit, R::ONE, reach, left)?;
         let distance = R::distance_to(light.position, R::narrow(towards.dot(unit)));
         Some(Towards { ray, distance, faces })
     }
@@ -385,7 +393,7 @@ impl<R: Real> Arrival<'_, R> {
         not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
         inline(never)
     )]
-    fn reflected(&self, towards: Vec3<R>) -> Vec3<R> {
+    fn reflected(&self, ray: &Ray<R>, towards: Vec3<R>) -> Vec3<R> {
         let Material { diffuse, specular, shine, .. } = *self.material;
         let color = self.material.color_at(self.surface.point, self.surface.normal);
         let cosine = R::narrow(self.surface.shading.dot(towards));
@@ -397,16 +405,16 @@ impl<R: Real> Arrival<'_, R> {
         if !(highlight > R::ZERO) {
             return matt;
         }
-        let is_unit = self.ray.is_unit();
-        let highlight = if is_unit { highlight } else { highlight / self.ray.squared().sqrt() };
+        let is_unit = ray.is_unit();
+        let highlight = if is_unit { highlight } else { highlight / ray.squared().sqrt() };
         let highlight = highlight.min(R::ONE);
         matt + Vec3::<R>::splat(specular * highlight.powf(shine))
     }
 
     /// The rays that go on from here: the one that goes through, and the mirrored one.
-    fn spawn(&self, secondary: Secondary) -> (Spawned<R>, Spawned<R>) {
+    fn spawn(&self, ray: &Ray<R>, secondary: Secondary) -> (Spawned<R>, Spawned<R>) {
         let Material { specular, transmission, .. } = *self.material;
-        let through = if transmission > R::ZERO { self.through() } else { None };
+        let through = if transmission > R::ZERO { self.through(ray) } else { None };
         // Where nothing can leave, everything is mirrored.
         let total = transmission > R::ZERO && through.is_none();
         let share = if total { specular + transmission } else { specular };
@@ -416,7 +424,7 @@ impl<R: Real> Arrival<'_, R> {
         };
         let mirrored = if mirrors {
             let Surface { reach, left, .. } = *self.surface;
-            self.ray.turned(self.origin, self.mirrored, self.ray.squared(), reach, left)
+            ray.turned(self.origin, self.mirrored, ray.squared(), reach, left)
         } else {
             None
         };
@@ -425,14 +433,14 @@ impl<R: Real> Arrival<'_, R> {
 
     /// The ray behind the surface, after Snell; `None` for total reflection.
     #[inline(never)]
-    fn through(&self) -> Option<Ray<R>> {
+    fn through(&self, ray: &Ray<R>) -> Option<Ray<R>> {
         let Surface { point, normal, shading, front, error, reach, left, .. } = *self.surface;
         let origin = point - normal * error;
         let index = self.material.index;
         if !(index > R::ZERO) || index == R::ONE {
-            return self.ray.turned(origin, self.ray.direction(), self.ray.squared(), reach, left);
+            return ray.turned(origin, ray.direction(), ray.squared(), reach, left);
         }
-        let direction = self.ray.direction().unit()?;
+        let direction = ray.direction().unit()?;
         let ratio = if front { R::ONE / index } else { index };
         let cosine = -R::narrow(direction.dot(shading));
         let under_root = R::ONE - ratio * ratio * (R::ONE - cosine * cosine);
@@ -442,6 +450,6 @@ impl<R: Real> Arrival<'_, R> {
         let bent = direction * ratio + shading * (ratio * cosine - under_root.sqrt());
         // An interpolated normal may send the ray back to where it comes from: then straight on.
         let straight = bent.dot(normal) >= R::Wide::default();
-        self.ray.turned(origin, if straight { direction } else { bent }, R::ONE, reach, left)
+        ray.turned(origin, if straight { direction } else { bent }, R::ONE, reach, left)
     }
 }
