@@ -1,6 +1,7 @@
 //! `f32` and `f64` as [`Real`]. `f64` is the reference on the host.
 
 use super::{Cells, Halves, Progress, Real, Reciprocal, Vector, power, sqrt};
+use crate::scene::Material;
 
 macro_rules! float {
     ($f:ident, $vec3:ty, $bits:ident, $mantissa:expr, $sqrt:path) => {
@@ -23,6 +24,7 @@ macro_rules! float {
             const MAX: Self = $f::MAX;
             const INFINITY: Self = $f::INFINITY;
             const NO_POWER: Self = 1.0;
+            const UNPAINTED: &'static Material<Self> = &Material::matt(<$vec3>::ONE);
 
             fn from_f64(x: f64) -> Self {
                 x as Self

@@ -30,6 +30,7 @@ pub use float::FloatProgress;
 pub use linear::{Cells, Halves, Progress, Reciprocal};
 pub use vector::{Axis, Vector};
 
+use crate::scene::Material;
 use bytemuck::Pod;
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -109,6 +110,9 @@ pub trait Real:
     const INFINITY: Self;
     /// The power that changes nothing, 1.
     const NO_POWER: Self::Exponent;
+    /// The surface of what has none, a matt white. Here, because a constant of a generic type cannot be
+    /// borrowed for ever, and in each scene it would take 48 bytes.
+    const UNPAINTED: &'static Material<Self>;
     /// Whether sums of products are exact, so that differences of them lose nothing.
     const EXACT: bool = false;
     /// Slack of a ray ([`Ray::slack`](crate::geom::Ray::slack)) in units of the last place of its

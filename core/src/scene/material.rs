@@ -36,7 +36,7 @@ pub struct Material<R: Real> {
 impl<R: Real> Default for Material<R> {
     /// A matt white.
     fn default() -> Self {
-        Self::matt(Vec3::<R>::splat(R::ONE))
+        *R::UNPAINTED
     }
 }
 

@@ -82,8 +82,6 @@ pub struct Scene<'a, R: Real, S> {
     paint: &'a [Paint],
     lights: &'a [Light<R>],
     background: Vec3<R>,
-    /// The material of what has none.
-    unpainted: Material<R>,
 }
 
 impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
@@ -115,7 +113,6 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
             paint: &[],
             lights: &[],
             background: Vec3::<R>::default(),
-            unpainted: Material::default(),
         })
     }
 
@@ -199,7 +196,7 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
             self.paint.get(after.checked_sub(1)?)
         });
         let material = run.map_or(0, |run| usize::from(run.material));
-        self.materials.get(material).unwrap_or(&self.unpainted)
+        self.materials.get(material).unwrap_or(R::UNPAINTED)
     }
 
     /// Whether any of the surfaces mirrors or transmits. Time in proportion to their number.

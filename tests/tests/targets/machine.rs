@@ -27,9 +27,8 @@ pub(crate) struct Machine {
 /// Bytes of stack that are enough.
 const STACK: u64 = 2048;
 
-/// Programs that take more somewhere: every kind of shape in one set, mirrors to depth 5 in an
-/// octree, and the building of a hierarchy in fixed point on a Cortex-M0.
-const DEEP: [&str; 3] = ["solids", "marbles", "fixed_triangles_bvh"];
+/// Programs that take more somewhere: every kind of shape in one set.
+const DEEP: [&str; 1] = ["solids"];
 
 impl Machine {
     const fn new(

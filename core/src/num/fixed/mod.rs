@@ -51,6 +51,7 @@ pub use linear::{Cells, Halves, Progress, Reciprocal, Slope};
 pub use vector::{FarPoint, Vec3};
 
 use crate::num::{self, Real, Vector};
+use crate::scene::Material;
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use fixed::types::{I4F28, I8F56, U22F10};
@@ -190,6 +191,8 @@ impl Real for Fixed {
     const MAX: Self = Self::from_bits(i32::MAX - 1);
     const INFINITY: Self = Self::from_bits(i32::MAX);
     const NO_POWER: Exponent = Exponent::ONE;
+    const UNPAINTED: &'static Material<Self> =
+        &Material::matt(Vec3::new(Self::ONE, Self::ONE, Self::ONE));
     const EXACT: bool = true;
     /// Twice that of floats: an error in a round shape is one of steps, however small the shape.
     const SLACK: i32 = 64;
