@@ -30,34 +30,22 @@ impl Vec3 {
         Self { x, y, z }
     }
 
-    /// From steps of 2^-56, cut off; whether one is out of range is asked of all at once.
-    #[inline(always)]
-    pub(super) fn cut(steps: [i64; 3]) -> Self {
-        let [x, y, z] = steps.map(|s| (s >> 32) as i32).map(|high| high ^ (high >> 31));
-        if (x | y | z) >> (DIGITS - 1) == 0 {
-            Self::from_array(steps.map(|s| Fixed::from_bits((s >> DIGITS) as i32)))
-        } else {
-            let [x, y, z] = steps;
-            saturated(x, y, z)
-        }
-    }
-}
-
-impl Vec3 {
     /// `self + direction * t`, each rounded once.
     #[inline]
     pub(super) fn at(self, direction: Self, t: Fixed) -> Self {
-        let along = |o: Fixed, d: Fixed| {
-            // Half a step is rounded up; it fits below what the origin is moved up by.
-            let (high, low) =
-                (o.to_bits() >> 4, (o.to_bits() as u32) << DIGITS | 1 << (DIGITS - 1));
-            (i64::from(high) << 32 | i64::from(low)) + product(d.to_bits(), t.to_bits())
-        };
-        Self::cut([
-            along(self.x, direction.x),
-            along(self.y, direction.y),
-            along(self.z, direction.z),
-        ])
+        if self.is_within(4) && direction.is_within(2) && is_within(t, 2) {
+            return self
+                .zip(direction, |o, d| Fixed::from_bits(o.to_bits().wrapping_add(short(d, t))));
+        }
+        plus(self, direction, Self::new(t, t, t))
+    }
+
+    /// Whether each is from `-n` to less than `n`, a power of two: one question for all.
+    #[inline(always)]
+    fn is_within(self, n: u32) -> bool {
+        let limit = n << DIGITS;
+        let [x, y, z] = self.to_array().map(|x| (x.to_bits() as u32).wrapping_add(limit));
+        (x | y | z) < 2 * limit
     }
 
     /// The same for the direction of a ray, less than 2 along an axis unless `reach` is infinite:
@@ -91,11 +79,29 @@ impl Vec3 {
     }
 }
 
-/// By value: what a pointer leads to could not stay in registers.
+/// Whether it is from `-n` to less than `n`.
+#[inline(always)]
+fn is_within(x: Fixed, n: u32) -> bool {
+    (x.to_bits() as u32).wrapping_add(n << DIGITS) < 2 * n << DIGITS
+}
+
+/// The product of numbers from -2 to less than 2, in steps of 2^-28, rounded: its upper half.
+#[inline(always)]
+fn short(a: Fixed, b: Fixed) -> i32 {
+    upper(product(a.to_bits() << 2, b.to_bits() << 2))
+}
+
+/// `p + v * by` of each component, rounded once.
 #[cold]
 #[inline(never)]
-fn saturated(x: i64, y: i64, z: i64) -> Vec3 {
-    Vec3::from_array([x, y, z].map(|s| Fixed::from_bits(shifted(s, DIGITS))))
+fn plus(p: Vec3, v: Vec3, by: Vec3) -> Vec3 {
+    let along = |o: Fixed, d: Fixed, t: Fixed| {
+        // Half a step is rounded up; it fits below what the origin is moved up by.
+        let (high, low) = (o.to_bits() >> 4, (o.to_bits() as u32) << DIGITS | 1 << (DIGITS - 1));
+        (i64::from(high) << 32 | i64::from(low)) + product(d.to_bits(), t.to_bits())
+    };
+    let cut = |steps: i64| Fixed::from_bits(shifted(steps, DIGITS));
+    Vec3::new(cut(along(p.x, v.x, by.x)), cut(along(p.y, v.y, by.y)), cut(along(p.z, v.z, by.z)))
 }
 
 impl Add for Vec3 {
@@ -127,8 +133,10 @@ impl Mul<Fixed> for Vec3 {
     type Output = Self;
     #[inline]
     fn mul(self, rhs: Fixed) -> Self {
-        let times = |x: Fixed| product(x.to_bits(), rhs.to_bits()) + (1 << (DIGITS - 1));
-        Self::cut(self.to_array().map(times))
+        if self.is_within(2) && is_within(rhs, 2) {
+            return self.map(|x| Fixed::from_bits(short(x, rhs)));
+        }
+        plus(Self::default(), self, Self::new(rhs, rhs, rhs))
     }
 }
 
@@ -197,8 +205,10 @@ impl Vector<Fixed> for Vec3 {
     }
 
     fn scale(self, other: Self) -> Self {
-        let times = |a: Fixed, b: Fixed| product(a.to_bits(), b.to_bits()) + (1 << (DIGITS - 1));
-        Self::cut([times(self.x, other.x), times(self.y, other.y), times(self.z, other.z)])
+        if self.is_within(2) && other.is_within(2) {
+            return self.zip(other, |a, b| Fixed::from_bits(short(a, b)));
+        }
+        plus(Self::default(), self, other)
     }
 
     fn across(self, other: Self) -> Self {
