@@ -156,7 +156,13 @@ impl<R: Real> Ray<R> {
     }
 
     /// The same ray with the slack of the scene it is shot into.
+    #[inline(always)]
     pub(crate) fn with_slack(mut self, slack: R) -> Self {
+        if cfg!(target_arch = "riscv32") {
+            // One by one: as a whole it would be copied by a call, of 72 instructions.
+            let Self { origin, squared, direction, reach, left, .. } = self;
+            return Self { origin, squared, direction, reach, slack, left };
+        }
         self.slack = slack;
         self
     }
