@@ -368,6 +368,24 @@ fn points_of_rays_are_the_same_by_every_way() {
 }
 
 #[test]
+fn products_of_vectors_are_the_nearest_numbers_in_range_or_not() {
+    let mut random = Random(27);
+    for i in 0..200_000 {
+        let most = [0.9, 1.99, 2.01, 3.99, 7.9][i % 5];
+        let mut any = || any(&mut random, most);
+        let [p, v, w] = [(); 3].map(|()| Vec3::new(any(), any(), any()));
+        let t = any();
+        let nearest = |p: Fixed, a: Fixed, b: Fixed| {
+            let [p, a, b] = [p, a, b].map(|x| i64::from(x.to_bits()));
+            Fixed::saturated(((p << DIGITS) + a * b + (1 << (DIGITS - 1))) >> DIGITS)
+        };
+        assert_eq!(p.at(v, t), p.zip(v, |p, v| nearest(p, v, t)));
+        assert_eq!(v * t, v.map(|v| nearest(Fixed::ZERO, v, t)));
+        assert_eq!(v.scale(w), v.zip(w, |v, w| nearest(Fixed::ZERO, v, w)));
+    }
+}
+
+#[test]
 fn no_sphere_that_is_met_is_passed_by() {
     let mut random = Random(23);
     let (mut told, mut passed) = ([0; 2], 0);

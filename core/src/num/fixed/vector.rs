@@ -82,7 +82,7 @@ impl Vec3 {
 /// Whether it is from `-n` to less than `n`.
 #[inline(always)]
 fn is_within(x: Fixed, n: u32) -> bool {
-    (x.to_bits() as u32).wrapping_add(n << DIGITS) < 2 * n << DIGITS
+    (x.to_bits() as u32).wrapping_add(n << DIGITS) < (2 * n) << DIGITS
 }
 
 /// The product of numbers from -2 to less than 2, in steps of 2^-28, rounded: its upper half.
