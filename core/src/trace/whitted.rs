@@ -142,8 +142,8 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         let depth = self.settings.max_depth;
         if depth <= 1 {
             self.color_within::<P, 1>(ray, probe)
-        } else if depth <= 3 {
-            self.color_within::<P, 3>(ray, probe)
+        } else if depth <= 4 {
+            self.color_within::<P, 4>(ray, probe)
         } else if depth <= 5 {
             self.color_within::<P, 5>(ray, probe)
         } else {
