@@ -201,8 +201,9 @@ pub(super) fn nearest_root(x: u64) -> u32 {
     let v = ((x << up) >> 32) as u32;
     // √x = v r, moved back; of r no more than there is, so that less than 2^32 is left of √v.
     let root = high(v, reciprocal_root(v) - 3).wrapping_mul(2);
-    let mut root = root >> (up / 2);
-    // A little too small; in the end root² - root < x <= root² + root.
+    // Rounded, by the uppermost digit that goes; mostly right then.
+    let mut root = (root >> (up / 2)) + ((root << 1 >> (up / 2)) & 1);
+    // In the end root² - root < x <= root² + root.
     for _ in 0..12 {
         let rest = x.wrapping_sub(u64::from(root) * u64::from(root)) as i64;
         if rest > i64::from(root) {
