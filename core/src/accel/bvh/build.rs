@@ -2,7 +2,8 @@
 //!
 //! Nodes are made in the order in which they are stored, level by level, and until a node's turn
 //! comes its place holds what it will be made of: so there is no queue and no recursion. The list of
-//! ids is partitioned in place. Boxes are computed from the shapes whenever they are needed.
+//! ids is partitioned in place. Boxes are kept where nodes are still to be made while there is room
+//! for those of a group, and otherwise computed from the shapes whenever they are needed.
 //!
 //! The number of nodes is given. A node cuts its shapes into eight groups, always the one with the
 //! largest surface (I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", RT 2008), and deals
@@ -11,7 +12,7 @@
 
 use super::node::{Node, WIDTH, pack};
 use super::size::{footprint, least_below, levels_below, most_below, possible_nodes};
-use super::split::{Cut, best_cut};
+use super::split::{Bins, Cut, best_cut};
 use super::units::{Bounds, Units};
 use super::{Bvh, LEVELS};
 use crate::accel::{BuildError, Id};
@@ -60,17 +61,24 @@ struct Group {
 }
 
 impl Group {
-    /// As it waits in a node's place.
-    fn wait(self) -> Node {
+    /// As it waits in a node's place, with its box.
+    fn wait(self, bounds: Bounds) -> Node {
         let bytes = |n: usize| (n as u64).to_le_bytes();
-        let none = [0; WIDTH];
+        let corner = |[x, y, z]: [u16; 3]| bytemuck::cast([x, y, z, 0]);
         let Self { first, count, nodes } = self;
-        [bytes(first), bytes(count), bytes(nodes), none, none, none, none, none]
+        let (lo, hi, none) = (corner(bounds.lo), corner(bounds.hi), [0; WIDTH]);
+        [bytes(first), bytes(count), bytes(nodes), lo, hi, none, none, none]
     }
 
-    fn waiting(node: &Node) -> Self {
-        let [first, count, nodes, ..] = node.map(|row| u64::from_le_bytes(row) as usize);
-        Self { first, count, nodes }
+    fn waiting(node: &Node) -> (Self, Bounds) {
+        let [first, count, nodes, lo, hi, ..] = *node;
+        let [first, count, nodes] =
+            [first, count, nodes].map(|row| u64::from_le_bytes(row) as usize);
+        let [lo, hi] = [lo, hi].map(|row| {
+            let [x, y, z, _]: [u16; 4] = bytemuck::cast(row);
+            [x, y, z]
+        });
+        (Self { first, count, nodes }, Bounds { lo, hi })
     }
 
     fn range(&self) -> Range<usize> {
@@ -85,6 +93,12 @@ impl Group {
 /// Groups with their boxes, in the order of their ranges.
 type Groups = Vec<(Group, Bounds), WIDTH>;
 
+/// Boxes of shapes in the order of the list from a place on, or none.
+struct Boxes<'f> {
+    first: usize,
+    kept: &'f mut [[[u16; 3]; 2]],
+}
+
 struct Builder<'b, 's, R: Real, S, I> {
     scene: &'b Scene<'s, R, S>,
     units: Units<R>,
@@ -97,7 +111,7 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
     fn grow(&mut self, nodes: &mut [Node], links: &mut [[I; 2]]) -> usize {
         let all = Group { first: 0, count: self.ids.len(), nodes: nodes.len() };
         if let Some(root) = nodes.first_mut() {
-            *root = all.wait();
+            *root = all.wait(self.bounds_of(0, all.count));
         }
         let (mut level, mut level_end, mut next) = (0, 0, 1);
         let mut groups = Groups::new();
@@ -106,8 +120,13 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
                 level += 1;
                 level_end = next;
             }
-            let Some(group) = nodes.get(number).map(Group::waiting) else { break };
-            self.divide(group, level, &mut groups);
+            let Some((group, bounds)) = nodes.get(number).map(Group::waiting) else { break };
+            self.divide(
+                (group, bounds),
+                level,
+                nodes.get_mut(next..).unwrap_or_default(),
+                &mut groups,
+            );
             self.leaves_first(&mut groups);
             let leaves = groups.iter().filter(|(child, _)| child.nodes == 0).count();
             *link = [I::new(group.first), I::new(next + WIDTH - leaves)];
@@ -120,11 +139,18 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
     // looked for, and then holds only what that is for.
 
     /// The children of a node on a level; the root's is 1.
-    fn divide(&mut self, node: Group, level: usize, groups: &mut Groups) {
+    fn divide(
+        &mut self,
+        (node, bounds): (Group, Bounds),
+        level: usize,
+        free: &mut [Node],
+        groups: &mut Groups,
+    ) {
         let below = node.nodes.saturating_sub(1);
         // What is left below must not become too deep, however unequal the groups are.
         if level + levels_below(node.count) <= LEVELS {
-            self.cut(node, groups);
+            let mut boxes = self.keep(node, free);
+            self.cut((node, bounds), &mut boxes, groups);
             if deal(groups, below) {
                 return;
             }
@@ -147,47 +173,65 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         }
     }
 
+    /// The boxes of a node's shapes, if there is room for them in nodes still to be made.
+    #[inline(never)]
+    fn keep<'f>(&self, node: Group, free: &'f mut [Node]) -> Boxes<'f> {
+        let room = bytemuck::pod_align_to_mut(free.as_flattened_mut().as_flattened_mut()).1;
+        let kept = room.get_mut(..node.count).unwrap_or_default();
+        for (kept, id) in kept.iter_mut().zip(self.ids.get(node.range()).unwrap_or_default()) {
+            *kept = self.bounds(*id).corners();
+        }
+        Boxes { first: node.first, kept }
+    }
+
     /// Eight groups with small surfaces; fewer when there are not so many shapes.
-    fn cut(&mut self, node: Group, groups: &mut Groups) {
+    fn cut(&mut self, (node, bounds): (Group, Bounds), boxes: &mut Boxes<'_>, groups: &mut Groups) {
         groups.clear();
-        let whole = Group { nodes: 0, ..node };
-        let _ = groups.push((whole, self.bounds_of(node.first, node.count)));
+        let _ = groups.push((Group { nodes: 0, ..node }, bounds));
         while groups.len() < WIDTH {
             let Some(place) = largest(groups) else { break };
-            let ids = groups.get(place).map_or(0..0, |(group, _)| group.range());
-            let ids = self.ids.get(ids).unwrap_or_default();
-            let cut = best_cut::<I>(ids.iter().map(|id| self.bounds(*id)));
-            self.halve(groups, place, cut);
+            let Some((group, bounds)) = groups.get(place).copied() else { break };
+            let bounds_at = |at| self.bounds_at(at, boxes);
+            let (count, below, above) = if group.count == 2 {
+                // They are parted in one way only.
+                (1, bounds_at(group.first), bounds_at(group.first + 1))
+            } else {
+                let bins = self.bins(group, boxes);
+                match best_cut::<I>(&bins, group.range().map(bounds_at)) {
+                    Some(cut) => self.partition(group, cut, boxes),
+                    // All in one place: in the middle of the list.
+                    None => (group.count / 2, bounds, bounds),
+                }
+            };
+            halve(groups, place, count, (below, above));
         }
     }
 
-    /// Cuts a group in two; in the middle of its list if its shapes are all in one place.
+    /// Bins across the middles of a group's boxes.
     #[inline(never)]
-    fn halve(&mut self, groups: &mut Groups, place: usize, cut: Option<Cut>) {
-        let Some((group, bounds)) = groups.get_mut(place) else { return };
-        let (count, below, above) = match cut {
-            Some(cut) => self.partition(*group, cut),
-            None => (group.count / 2, *bounds, *bounds),
-        };
-        let rest = Group { first: group.first + count, count: group.count - count, ..*group };
-        (group.count, *bounds) = (count, below);
-        // Never refused: there is room for another. `insert` could panic, for all the compiler knows.
-        let _ = groups.push((rest, above));
-        for at in (place + 2..groups.len()).rev() {
-            if let Some([a, b]) = groups.get_mut(at - 1..=at) {
-                core::mem::swap(a, b);
+    fn bins(&self, group: Group, boxes: &Boxes<'_>) -> [Bins; 3] {
+        let mut all = [(u32::MAX, 0); 3];
+        for at in group.range() {
+            for (all, middle) in all.iter_mut().zip(self.bounds_at(at, boxes).middle()) {
+                *all = (middle.min(all.0), middle.max(all.1));
             }
         }
+        all.map(|(from, to)| Bins::between(from, to))
     }
 
     /// Brings those ids first of which the box is below; gives their number, and the boxes of both
     /// parts.
-    fn partition(&mut self, group: Group, cut: Cut) -> (usize, Bounds, Bounds) {
+    #[inline(never)]
+    fn partition(
+        &mut self,
+        group: Group,
+        cut: Cut,
+        boxes: &mut Boxes<'_>,
+    ) -> (usize, Bounds, Bounds) {
         let (mut below, mut above) = (Bounds::EMPTY, Bounds::EMPTY);
         let (mut from, mut to) = (group.first, group.first + group.count);
         while from < to {
-            let Some(id) = self.ids.get(from).copied() else { break };
-            let bounds = self.bounds(id);
+            let bounds = self.bounds_at(from, boxes);
             if cut.is_below(bounds) {
                 below = below.union(bounds);
                 from += 1;
@@ -195,9 +239,8 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
             }
             above = above.union(bounds);
             to -= 1;
-            if let Some([first, .., last]) = self.ids.get_mut(from..=to) {
-                core::mem::swap(first, last);
-            }
+            swap_ends(self.ids.get_mut(from..=to));
+            swap_ends(boxes.kept.get_mut(from - boxes.first..=to - boxes.first));
         }
         (from - group.first, below, above)
     }
@@ -225,10 +268,41 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         self.units.bounds(self.scene.shapes().bounds(id.get()))
     }
 
+    /// The box of the shape at a place of the list.
+    #[inline(never)]
+    fn bounds_at(&self, at: usize, boxes: &Boxes<'_>) -> Bounds {
+        match boxes.kept.get(at - boxes.first) {
+            Some(corners) => Bounds::between(*corners),
+            None => self.ids.get(at).map_or(Bounds::EMPTY, |id| self.bounds(*id)),
+        }
+    }
+
     #[inline(never)]
     fn bounds_of(&self, first: usize, count: usize) -> Bounds {
         let ids = self.ids.get(first..first + count).unwrap_or_default();
         ids.iter().fold(Bounds::EMPTY, |all, id| all.union(self.bounds(*id)))
+    }
+}
+
+/// Puts two groups in the place of one: its first `count` shapes, and the rest.
+#[inline(never)]
+fn halve(groups: &mut Groups, place: usize, count: usize, (below, above): (Bounds, Bounds)) {
+    let Some((group, bounds)) = groups.get_mut(place) else { return };
+    let rest = Group { first: group.first + count, count: group.count - count, ..*group };
+    (group.count, *bounds) = (count, below);
+    // Never refused: there is room for another. `insert` could panic, for all the compiler knows.
+    let _ = groups.push((rest, above));
+    for at in (place + 2..groups.len()).rev() {
+        if let Some([a, b]) = groups.get_mut(at - 1..=at) {
+            core::mem::swap(a, b);
+        }
+    }
+}
+
+/// Exchanges the first and the last of some elements.
+fn swap_ends<T>(elements: Option<&mut [T]>) {
+    if let Some([first, .., last]) = elements {
+        core::mem::swap(first, last);
     }
 }
 
@@ -250,7 +324,7 @@ fn lay(groups: &Groups, nodes: &mut [Node], number: usize, mut next: usize) -> u
             if child.nodes == 0 {
                 end += child.count;
             } else if let Some(waiting) = nodes.get_mut(next) {
-                *waiting = child.wait();
+                *waiting = child.wait(*bounds);
                 next += 1;
             }
         }

@@ -25,6 +25,16 @@ impl Bounds {
     /// Contains nothing; a union with it changes nothing.
     pub(super) const EMPTY: Self = Self { lo: [u16::MAX; 3], hi: [0; 3] };
 
+    pub(super) fn between([lo, hi]: [[u16; 3]; 2]) -> Self {
+        Self { lo, hi }
+    }
+
+    pub(super) fn corners(self) -> [[u16; 3]; 2] {
+        [self.lo, self.hi]
+    }
+
+    // Modules of WebAssembly are to be small.
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub(super) fn union(self, other: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.lo, other.lo);
         let ([cx, cy, cz], [dx, dy, dz]) = (self.hi, other.hi);
