@@ -41,7 +41,7 @@ pub struct Length<R: Real> {
 
 impl<R: Real> Length<R> {
     /// A division and a square root, unless it is 1.
-    pub(super) fn of(ray: &Ray<R>) -> Self {
+    pub(crate) fn of(ray: &Ray<R>) -> Self {
         if !R::EXACT {
             let inverse_squared = R::ONE / ray.squared();
             return Self {
