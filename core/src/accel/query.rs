@@ -125,7 +125,8 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     if FOURS && !A::HANDS_OVER_ALL && unbounded.is_empty() && Framing::passes_by(scene, ray) {
         return (goal, interval.max);
     }
-    let (ref ray, min, limit, near) = framed(scene, ray, interval);
+    let (ray, min, limit, near) = framed(scene, ray, interval);
+    let ray = &ray;
     let per_ray = shapes.per_ray(ray);
     let mut search =
         Search { line: Line { shapes, ray, per_ray: &per_ray }, min, limit, mailbox, probe, goal };

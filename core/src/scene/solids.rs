@@ -221,6 +221,31 @@ fn take<'a, T>(first: &'a [T], id: &mut usize) -> Option<&'a T> {
     shape
 }
 
+// Kinds so small that their tests would become part of what chooses between them: apart, so that what
+// they take is not on the stack while another kind is tested. The others are apart by themselves.
+
+#[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
+fn hit<R: Real, T: Shape<R>>(
+    shape: &T,
+    ray: &Ray<R>,
+    per_ray: &T::PerRay,
+    min: R,
+    max: R,
+) -> Option<R> {
+    shape.hit(ray, per_ray, min, max)
+}
+
+#[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
+fn occludes<R: Real, T: Shape<R>>(
+    shape: &T,
+    ray: &Ray<R>,
+    per_ray: &T::PerRay,
+    min: R,
+    max: R,
+) -> bool {
+    shape.occludes(ray, per_ray, min, max)
+}
+
 impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
     type PerRay = PerRay<R>;
 
@@ -267,26 +292,26 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
 
     fn hit(&self, id: usize, ray: &Ray<R>, per_ray: &PerRay<R>, min: R, max: R) -> Option<R> {
         match self.solid(id)? {
-            Solid::Sphere(it) => it.hit(ray, &per_ray.length, min, max),
-            Solid::Triangle(it) => it.hit(ray, &per_ray.shear, min, max),
+            Solid::Sphere(it) => hit(it, ray, &per_ray.length, min, max),
+            Solid::Triangle(it) => hit(it, ray, &per_ray.shear, min, max),
             Solid::Polygon(it) => it.hit(ray, &per_ray.shear, min, max),
-            Solid::Box(it) => it.hit(ray, &per_ray.slopes, min, max),
+            Solid::Box(it) => hit(it, ray, &per_ray.slopes, min, max),
             Solid::Cylinder(it) => it.hit(ray, &per_ray.length, min, max),
             Solid::Cone(it) => it.hit(ray, &per_ray.length, min, max),
-            Solid::Plane(it) => it.hit(ray, &(), min, max),
+            Solid::Plane(it) => hit(it, ray, &(), min, max),
         }
     }
 
     fn occludes(&self, id: usize, ray: &Ray<R>, per_ray: &PerRay<R>, min: R, max: R) -> bool {
         match self.solid(id) {
             None => false,
-            Some(Solid::Sphere(it)) => it.occludes(ray, &per_ray.length, min, max),
-            Some(Solid::Triangle(it)) => it.occludes(ray, &per_ray.shear, min, max),
+            Some(Solid::Sphere(it)) => occludes(it, ray, &per_ray.length, min, max),
+            Some(Solid::Triangle(it)) => occludes(it, ray, &per_ray.shear, min, max),
             Some(Solid::Polygon(it)) => it.occludes(ray, &per_ray.shear, min, max),
-            Some(Solid::Box(it)) => it.occludes(ray, &per_ray.slopes, min, max),
+            Some(Solid::Box(it)) => occludes(it, ray, &per_ray.slopes, min, max),
             Some(Solid::Cylinder(it)) => it.occludes(ray, &per_ray.length, min, max),
             Some(Solid::Cone(it)) => it.occludes(ray, &per_ray.length, min, max),
-            Some(Solid::Plane(it)) => it.occludes(ray, &(), min, max),
+            Some(Solid::Plane(it)) => occludes(it, ray, &(), min, max),
         }
     }
 
@@ -328,6 +353,7 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
             .or_else(|| search.any(self.planes, ray, &(), min))
     }
 
+    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
         self.chain().normal(id, ray, t)
     }

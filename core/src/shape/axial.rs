@@ -107,7 +107,7 @@ impl<R: Real> Hull<R> {
     #[cold]
     #[inline(never)]
     fn settle_far(&self, ray: &Ray<R>, t: R) -> Option<R> {
-        settle_between(ray, self.bounds(), self.slabs(), t)
+        settle_between(ray, &self.bounds(), self.slabs(), t)
     }
 
     /// Whether a point certainly lies within `slack` of the hull, and so in its box grown by that.

@@ -65,18 +65,24 @@ impl<'a, R: Real> Polygon<'a, R> {
         Some(Slab::new(*self.vertices.first()?, self.normal, R::ZERO, R::ZERO))
     }
 
-    /// Where a ray meets its plane. Apart from the outline where calls cost little, for the stack.
+    /// Where a ray meets its plane: in its box or, as an error, elsewhere. Apart from the outline where
+    /// calls cost little, for the stack.
     #[cfg_attr(
         not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
         inline(never)
     )]
-    fn parameter(&self, ray: &Ray<R>) -> Option<R> {
-        let first = *self.vertices.first()?;
+    fn parameter(&self, ray: &Ray<R>) -> Result<R, R> {
+        let first = *self.vertices.first().ok_or(R::INFINITY)?;
         let n = self.normal;
         let t = R::ratio(n.dot(first - ray.origin()), n.dot(ray.direction()));
-        // Seen edge-on, `t` says little.
-        let in_box = self.bounds.grown(ray.slack()).contains(ray.at(t));
-        if in_box { Some(t) } else { settle_between(ray, self.bounds, self.plane(), t) }
+        if self.bounds.grown(ray.slack()).contains(ray.at(t)) { Ok(t) } else { Err(t) }
+    }
+
+    /// What [`settle_between`] makes of a parameter. Seen edge-on, it says little.
+    #[cold]
+    #[inline(never)]
+    fn settled(&self, ray: &Ray<R>, t: R) -> Option<R> {
+        settle_between(ray, &self.bounds, self.plane(), t)
     }
 
     /// Whether the line of the ray passes through it.
@@ -162,7 +168,10 @@ impl<R: Real> Shape<R> for Polygon<'_, R> {
     }
 
     fn hit(&self, ray: &Ray<R>, shear: &Shear<R>, min: R, max: R) -> Option<R> {
-        let t = self.parameter(ray)?;
+        let t = match self.parameter(ray) {
+            Ok(t) => t,
+            Err(t) => self.settled(ray, t)?,
+        };
         // The outline comes last, because it is the longest.
         (t > min && t <= max && self.surrounds(shear)).then_some(t)
     }

@@ -111,7 +111,7 @@ impl<R: Real> Triangle<R> {
     #[cold]
     #[inline(never)]
     fn settle_thin(&self, ray: &Ray<R>, t: R) -> Option<R> {
-        settle_between(ray, self.bounds(), flat::<R>(self.corners), t)
+        settle_between(ray, &self.bounds(), flat::<R>(self.corners), t)
     }
 
     /// The weights of the corners at a hit, each from 0 to 1 and of sum 1: barycentric coordinates.

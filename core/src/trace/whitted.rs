@@ -169,10 +169,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         ray: &impl Fn() -> Option<Ray<R>>,
         probe: &mut P,
     ) -> Vec3<R> {
-        if let Some(ray) = ray() {
-            let ray = ray.with_slack(self.scene.slack());
-            let _ = rays.push(Pending { ray, weight: R::ONE, depth: 1 });
-        }
+        self.begin(rays, ray);
         let mut color = Vec3::<R>::default();
         // The last one is under way, and lies where it is: a copy would take as much again.
         while let Some(now) = rays.last() {
@@ -193,6 +190,15 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     // while another one is under way, and so that their variables lie together and not beyond the
     // pending rays: small processors reach a few hundred bytes of stack at once.
     // Where there is enough of it the calls are saved.
+
+    /// Puts the first ray on the stack, if there is one.
+    #[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(never))]
+    fn begin(&self, rays: &mut VecView<Pending<R>>, ray: &impl Fn() -> Option<Ray<R>>) {
+        if let Some(ray) = ray() {
+            let ray = ray.with_slack(self.scene.slack());
+            let _ = rays.push(Pending { ray, weight: R::ONE, depth: 1 });
+        }
+    }
 
     /// Where a ray meets something.
     #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]

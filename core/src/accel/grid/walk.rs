@@ -2,7 +2,7 @@
 
 use super::distance::{Slot, between};
 use super::{Grid, index, share};
-use crate::accel::lattice::Way;
+use crate::accel::lattice::{Lattice, Way};
 use crate::accel::{Accel, Id, Visitor};
 use crate::geom::Ray;
 use crate::num::{Axis, Progress, Real};
@@ -83,6 +83,33 @@ impl<R: Real> Along<R> {
     }
 }
 
+/// Moves on by `reach` cells along the axis where that is done first, and along the others to where
+/// single steps would be by then; says how far that is in the order of cells, or nothing where the
+/// limit comes first. Apart, for the room it takes on the stack.
+#[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(never))]
+fn leap<R: Real>(
+    lattice: &Lattice<R>,
+    ray: &Ray<R>,
+    [x, y, z]: [&mut Along<R>; 3],
+    reach: i32,
+    limit: R,
+) -> Option<isize> {
+    let [nx, ny, nz] = lattice.count();
+    let (ax, ay, az) = (x.after(reach, nx), y.after(reach, ny), z.after(reach, nz));
+    let t = ax.min(ay).min(az);
+    if limit <= t {
+        return None;
+    }
+    let [px, py, pz] = lattice.cell_of(ray.at(t));
+    Some(if ax <= ay && ax <= az {
+        x.leap(reach) + y.follow(t, false, py, ny) + z.follow(t, false, pz, nz)
+    } else if ay <= az {
+        y.leap(reach) + x.follow(t, true, px, nx) + z.follow(t, false, pz, nz)
+    } else {
+        z.leap(reach) + x.follow(t, true, px, nx) + y.follow(t, true, py, ny)
+    })
+}
+
 impl<R: Real, I: Id, O: Id, const SHARED: bool> Accel<R> for Grid<'_, R, I, O, SHARED> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let [x, y, z] = Axis::ALL.map(|axis| self.lattice.way(ray, axis));
@@ -135,19 +162,9 @@ impl<R: Real, I: Id, O: Id, const SHARED: bool> Accel<R> for Grid<'_, R, I, O, S
                     }
                     0
                 } else {
-                    let (ax, ay, az) = (x.after(reach, nx), y.after(reach, ny), z.after(reach, nz));
-                    let t = ax.min(ay).min(az);
-                    if limit <= t {
-                        return;
-                    }
-                    let [px, py, pz] = self.lattice.cell_of(ray.at(t));
-                    if ax <= ay && ax <= az {
-                        x.leap(reach) + y.follow(t, false, py, ny) + z.follow(t, false, pz, nz)
-                    } else if ay <= az {
-                        y.leap(reach) + x.follow(t, true, px, nx) + z.follow(t, false, pz, nz)
-                    } else {
-                        z.leap(reach) + x.follow(t, true, px, nx) + y.follow(t, true, py, ny)
-                    }
+                    let axes = [&mut x, &mut y, &mut z];
+                    let Some(stride) = leap(&self.lattice, ray, axes, reach, limit) else { return };
+                    stride
                 };
                 cell = cell.wrapping_add_signed(stride);
                 let found = if SHARED {

@@ -80,11 +80,12 @@ impl<R: Real> Slab<R> {
 /// that is, or nothing.
 ///
 /// A hit that has to be moved is moved deeper than it could stay: its new parameter is rounded.
-#[cold]
-#[inline(never)]
+///
+/// A part of what calls it, which is a function apart: the slabs are on the stack once.
+#[inline(always)]
 pub(in crate::shape) fn settle_between<R: Real>(
     ray: &Ray<R>,
-    bounds: Aabb<R>,
+    bounds: &Aabb<R>,
     slabs: impl IntoIterator<Item = Slab<R>> + Clone,
     t: R,
 ) -> Option<R> {
