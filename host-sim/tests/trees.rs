@@ -1,5 +1,13 @@
 //! Trees by Goldsmith and Salmon against what E. Haines published with the Standard Procedural
 //! Databases (1987, his HP-835 table), by the commands that a user would type.
+//!
+//! What is counted: every test of a box against a ray, that of the root, of nodes and of every single
+//! shape, by rays of all kinds, without his shadow cache. In floats queries tell rays that pass by
+//! the whole scene without a tree, which would leave the root's tests by these out (one in eight on
+//! `tree`); in fixed point they do not, so counts are made there.
+//!
+//! Fewer tests than published are due to the order, nearest first: as the tree is stored, it takes
+//! up to a fifth more. Shapes are tested a third as often as published, for each has a box of its own.
 
 use serde_json::Value;
 use std::process::Command;
@@ -40,22 +48,24 @@ fn tests(arguments: &str) -> (f64, f64) {
 
 #[test]
 fn goldsmith_and_salmon_take_as_many_tests_as_published() {
-    println!("order     box tests   published        | shape tests  published   (millions)");
+    println!("{:32}box tests published       | shape tests published  (millions)", "");
+    let orders = ["shuffled", "shuffled --seed 1", "shuffled --seed 2", "file", "curve"];
     for (scene, boxes, shapes) in PUBLISHED {
-        let orders = ["shuffled", "file", "curve", "shuffled --seed 1", "shuffled --seed 2"];
         for order in &orders[..if long() { 5 } else { 1 }] {
-            let (found, found_shapes) =
-                tests(&format!("spd:{scene} --accel tree --insertion {order}"));
-            let (ratio, shape_ratio) = (found / boxes, found_shapes / shapes);
-            println!(
-                "{scene:7} {order:17} {found:7.2} {boxes:7.2} {ratio:5.2} | \
-                 {found_shapes:6.2} {shapes:6.2} {shape_ratio:5.2}"
-            );
-            // Fewer tests are no fault; many fewer would be a sign of lost hits.
-            assert!(ratio < 1.35 && ratio > 0.5, "{scene} {order}: boxes {ratio:.2}");
-            assert!(shape_ratio < 1.2, "{scene} {order}: shapes {shape_ratio:.2}");
-            if *order == "shuffled" {
-                assert!(ratio < 1.2, "{scene} {order}: boxes {ratio:.2}");
+            let shuffled = order.starts_with("shuffled");
+            let walks = ["ordered", "stored"];
+            for walk in &walks[..if long() && shuffled { 2 } else { 1 }] {
+                let what = format!("spd:{scene} --insertion {order} --walk {walk}");
+                let (found, found_shapes) = tests(&format!("{what} --accel tree --num fixed"));
+                let (ratio, shape_ratio) = (found / boxes, found_shapes / shapes);
+                println!(
+                    "{scene:7} {order:17} {walk:7} {found:7.2} {boxes:7.2} {ratio:5.2} | \
+                     {found_shapes:6.2} {shapes:6.2} {shape_ratio:5.2}"
+                );
+                // Fewer tests are no fault; many fewer would be a sign of lost hits.
+                let most = if shuffled && *walk == "ordered" { 1.2 } else { 1.35 };
+                assert!(ratio < most && ratio > 0.5, "{what}: boxes {ratio:.2}");
+                assert!(shape_ratio < 1.2, "{what}: shapes {shape_ratio:.2}");
             }
         }
     }

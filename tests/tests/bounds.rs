@@ -17,11 +17,13 @@ fn rays() -> usize {
     std::env::var("KIBIRAY_RAYS").ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_000)
 }
 
-/// Bounds of one kind around every shape of a scene, around each and its neighbour, around all.
+/// Bounds of one kind around every shape of a scene, around each and its neighbour, around all; as
+/// they are put together, and refined.
 struct Around<B> {
     each: Vec<B>,
     pairs: Vec<B>,
     all: B,
+    refined: Option<Box<Self>>,
 }
 
 impl<B> Around<B> {
@@ -35,7 +37,26 @@ impl<B> Around<B> {
         let next = each.iter().cycle().skip(1);
         let pairs = each.iter().zip(next).map(|(a, b)| a.union(*b)).collect();
         let all = each[1..].iter().fold(each[0], |all, one| all.union(*one));
-        Self { each, pairs, all }
+        let coarse = Self { each, pairs, all, refined: None };
+        let refined = B::REFINES.then(|| Box::new(coarse.refined(scene)));
+        Self { refined, ..coarse }
+    }
+
+    /// The same bounds, refined.
+    fn refined<R: Real, S: Shapes<R>>(&self, scene: &Scene<'_, R, S>) -> Self
+    where
+        B: Fitted<R>,
+    {
+        let (count, region) = (self.each.len(), |id| scene.shapes().region(id));
+        let each = self.each.iter().enumerate();
+        let pairs = self.pairs.iter().enumerate();
+        let pair = |id| [id, (id + 1) % count].into_iter().map(region);
+        Self {
+            each: each.map(|(id, b)| b.refined([region(id)].into_iter(), scene.pad())).collect(),
+            pairs: pairs.map(|(id, b)| b.refined(pair(id), scene.pad())).collect(),
+            all: self.all.refined((0..count).map(region), scene.pad()),
+            refined: None,
+        }
     }
 
     fn check<R: Real>(&self, ray: &Ray<R>, id: usize, t: R, what: &str)
@@ -50,6 +71,9 @@ impl<B> Around<B> {
                 enter.is_some(),
                 "{what}: shape {id} is hit at {t:?} by {ray:?}, not {bound:?}"
             );
+        }
+        if let Some(refined) = &self.refined {
+            refined.check(ray, id, t, what);
         }
         // The union of two bounds as they are.
         let both = Union(self.each[before], self.each[id]);
@@ -179,6 +203,10 @@ fn contain<R: Real>(number: &str, seed: u64, sizes: RangeInclusive<i32>) {
         let axis = rng.usize(0..3);
         world.triangles[1].iter_mut().for_each(|corner| corner[axis] = middle[axis]);
         world.polygons[1].iter_mut().for_each(|corner| corner[axis] = middle[axis]);
+        // One is a needle, thinner than a slack sometimes.
+        let [a, b, c] = &mut world.triangles[0];
+        let thin = 10_f64.powi(rng.i32(-5..0));
+        *c = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * 0.6 + (c[i] - a[i]) * thin);
         world.round_to_f32();
         let tables = world.tables::<R>();
         let polygons = tables.polygons();

@@ -5,10 +5,6 @@
 //! hierarchies of k-dops", IEEE TVCG 4(1) (1998): the axes, the diagonals of the faces of a cube, the
 //! diagonals of the cube.
 //!
-//! Only the three slabs of the box decide where along the ray something may be hit; the others say
-//! no where the whole line passes by. That is what [`Region::passages`] can promise for flat shapes
-//! that are seen edge-on.
-//!
 //! In units in the last place of the scene's greatest coordinate, for a diagonal of two (three)
 //! components of 1: a shape may be hit 64 (96) outside, and the pad is twice that. The products of
 //! the diagonal with the ray's origin and direction, the parameter of a side and the side itself are
@@ -153,16 +149,15 @@ impl<R: Real, const K: usize> Bound<R> for KDop<R, K> {
 
     #[inline]
     fn enter(&self, lines: &Lines<R>, start: R, limit: R) -> Option<R> {
-        let aabb = self.aabb();
-        let mut part = cut_by_box::<R>((-R::MAX, R::MAX), &lines.axes, aabb.lo, aabb.hi)?;
-        let found = part.0.max(start);
-        if !(found <= part.1.min(limit)) {
+        if !(start <= limit) {
             return None;
         }
+        let aabb = self.aabb();
+        let mut part = cut_by_box::<R>((start, limit), &lines.axes, aabb.lo, aabb.hi)?;
         for (course, (_, slab)) in lines.diagonals.iter().zip(self.diagonals()) {
             part = cut::<R>(part, *course, *slab)?;
         }
-        Some(found)
+        Some(part.0)
     }
 }
 
@@ -178,7 +173,7 @@ impl<R: Real, const K: usize> Fitted<R> for KDop<R, K> {
             let direction = signs.map(|sign| R::HALF.times_int(sign.into()));
             let components = signs.iter().filter(|sign| **sign != 0).count();
             let margin = pad.times_int(components as i32) * R::HALF;
-            let (lo, hi) = region.passages(Vec3::<R>::from_array(direction));
+            let (lo, hi) = region.places(Vec3::<R>::from_array(direction), pad);
             *slab = [lo - margin, hi + margin];
         }
         Self { slabs }

@@ -17,6 +17,7 @@
 //!   side that is not a number, which no checked shape gives, is hit by nothing.
 
 mod aabb;
+mod covariance;
 mod kdop;
 mod oriented;
 mod pair;
@@ -62,6 +63,16 @@ pub trait Fitted<R: Real>: Bound<R> {
     /// Around two of its kind.
     #[must_use]
     fn union(self, other: Self) -> Self;
+
+    /// Whether [`Fitted::refined`] does anything.
+    const REFINES: bool = false;
+
+    /// This bound of some shapes, or a smaller one of them where all of them together tell more than
+    /// two bounds at a time; `pad` is that of their scene. Time in proportion to their number.
+    #[must_use]
+    fn refined(self, _inside: impl Iterator<Item = Region<R>> + Clone, _pad: R) -> Self {
+        self
+    }
 }
 
 /// A bound as it is laid into memory.

@@ -1,18 +1,21 @@
 //! The oriented box: a box whose edges may run anywhere.
 //!
 //! S. Gottschalk, M. Lin, D. Manocha, "OBBTree: a hierarchical structure for rapid interference
-//! detection", SIGGRAPH 1996. There the axes are those of the covariance of what is inside; here
-//! they are taken over from the parts, so that boxes can be built one shape at a time: the axes of
-//! one part, of the other, or those of the world, whichever give the least surface.
+//! detection", SIGGRAPH 1996. So that boxes can be built one shape at a time, axes are first taken
+//! over from the parts: those of one, of the other, or of the world, whichever give the least surface.
+//! [`Fitted::refined`] then tries the axes of the covariance of what is inside,
+//! as the original does, those that a single shape has itself, and again the former, for a box around
+//! the shapes themselves and not around boxes of boxes.
 //!
 //! In units in the last place of the scene's greatest coordinate: a shape may be hit √3 times 32
 //! outside; the products of an axis with origin and direction and the parameter of a side are off by
 //! 45, and the side itself by 20. It is moved by 256.
 
+use super::covariance::principal_axes;
 use super::slab::cut;
 use super::{Bound, Fitted, Region, Stored, shrunk};
 use crate::geom::Ray;
-use crate::num::{Axis, Real, Reciprocal, Vec3, Vector};
+use crate::num::{Real, Reciprocal, Vec3, Vector};
 
 /// A box along three axes of length 1 at right angles to each other, as far as rounding goes; 60
 /// bytes in `f32`.
@@ -27,19 +30,6 @@ pub struct OrientedBox<R: Real> {
 fn world<R: Real>() -> [Vec3<R>; 3] {
     let (zero, one) = (R::ZERO, R::ONE);
     [[one, zero, zero], [zero, one, zero], [zero, zero, one]].map(Vec3::<R>::from_array)
-}
-
-/// Axes of which one is given.
-fn axes_with<R: Real>(axis: Vec3<R>) -> Option<[Vec3<R>; 3]> {
-    let [x, y, z] = world::<R>();
-    // Not one that may run the same way.
-    let other = match axis.major_axis() {
-        Axis::X => y,
-        Axis::Y => z,
-        Axis::Z => x,
-    };
-    let across = axis.cross(other).unit()?;
-    Some([axis, across, axis.cross(across).unit()?])
 }
 
 impl<R: Real> OrientedBox<R> {
@@ -72,10 +62,15 @@ impl<R: Real> OrientedBox<R> {
         Self { sides, ..self }
     }
 
+    /// Another one, if that has less surface.
+    fn or_smaller(self, other: Self) -> Self {
+        if other.half_area() < self.half_area() { other } else { self }
+    }
+
     fn along(axes: [Vec3<R>; 3], region: &Region<R>, pad: R) -> Self {
         let margin = pad.times_int(4);
         let sides = axes.map(|axis| {
-            let (lo, hi) = region.places(axis);
+            let (lo, hi) = region.places(axis, pad);
             [lo - margin, hi + margin]
         });
         Self { axes, sides }
@@ -119,10 +114,9 @@ impl<R: Real> Fitted<R> for OrientedBox<R> {
     /// Along the axis of what has one, otherwise along those of the world.
     fn around(region: &Region<R>, pad: R) -> Self {
         let upright = Self::along(world::<R>(), region, pad);
-        let Region::Discs { axis, .. } = *region else { return upright };
-        let Some(axes) = axes_with::<R>(axis) else { return upright };
-        let tilted = Self::along(axes, region, pad);
-        if tilted.half_area() < upright.half_area() { tilted } else { upright }
+        let Region::Discs { .. } = region else { return upright };
+        let Some(axes) = region.axes() else { return upright };
+        upright.or_smaller(Self::along(axes, region, pad))
     }
 
     fn union(self, other: Self) -> Self {
@@ -131,12 +125,24 @@ impl<R: Real> Fitted<R> for OrientedBox<R> {
             return best;
         }
         for axes in [other.axes, world::<R>()] {
-            let tried = self.turned(axes).joined(other.turned(axes));
-            if tried.half_area() < best.half_area() {
-                best = tried;
-            }
+            best = best.or_smaller(self.turned(axes).joined(other.turned(axes)));
         }
         best
+    }
+
+    const REFINES: bool = true;
+
+    fn refined(self, inside: impl Iterator<Item = Region<R>> + Clone, pad: R) -> Self {
+        let along = |axes| {
+            let boxes = inside.clone().map(|region| Self::along(axes, &region, pad));
+            boxes.reduce(Self::joined)
+        };
+        let first = inside.clone().next().and_then(|region| region.axes());
+        [Some(principal_axes(inside.clone())), first, Some(self.axes), Some(world::<R>())]
+            .into_iter()
+            .flatten()
+            .filter_map(along)
+            .fold(self, Self::or_smaller)
     }
 }
 

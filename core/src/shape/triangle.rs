@@ -8,7 +8,7 @@
 //! an edge function is 0; that serves to give an edge to one triangle only. Here both may claim it,
 //! and the order of shapes decides.
 
-use super::overlap::{flat, settle_between};
+use super::overlap::{across_plane, flat, settle_between};
 use super::{Shape, ShapeError, settle};
 use crate::bound::Region;
 use crate::geom::{Aabb, Ray};
@@ -250,7 +250,7 @@ impl<R: Real> Shape<R> for Triangle<R> {
     }
 
     fn region(&self) -> Region<R> {
-        Region::flat(self.area_vector(), self.corners)
+        Region::triangle(self.corners, across_plane::<R>(self.corners))
     }
 
     #[inline(always)]

@@ -139,6 +139,13 @@ impl<'m, I: Id> Links<'m, I> {
         core::iter::successors(first, |child| self.sibling(*child)).take(self.end())
     }
 
+    /// The leaves below a node, itself included.
+    pub(super) fn leaves(&self, node: usize) -> impl Iterator<Item = usize> + Clone {
+        let after = move |at: &usize| self.after(*at, node, false);
+        let all = core::iter::successors(Some(node), after).take(self.end());
+        all.filter(|at| self.is_leaf(*at))
+    }
+
     /// The parent of a node; nothing for the root. Time in proportion to the number of siblings.
     pub(super) fn parent(&self, node: usize) -> Option<usize> {
         let mut node = node;

@@ -131,6 +131,7 @@ impl<'m, R: Real, B: Stored<R>, I: Id> Tree<'m, R, B, I> {
             Builder::List => tree.list_all(scene),
             Builder::Sah => tree.divide_all(scene, arena)?,
         }
+        tree.refine(scene);
         Ok(tree)
     }
 

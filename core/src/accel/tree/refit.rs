@@ -20,6 +20,26 @@ impl<R: Real, B: Stored<R>, I: Id> Tree<'_, R, B, I> {
             }
         }
         self.fit_all();
+        self.refine(scene);
+    }
+
+    /// Makes bounds smaller where their kind can around the shapes below: [`Fitted::refined`]. Time in
+    /// proportion to the number of shapes and of levels; no memory.
+    ///
+    /// [`Fitted::refined`]: crate::bound::Fitted::refined
+    pub(super) fn refine<S: Shapes<R>>(&mut self, scene: &Scene<'_, R, S>) {
+        if !B::REFINES {
+            return;
+        }
+        let mut next = self.links.first_up();
+        for _ in 0..self.links.end() {
+            let Some(node) = next else { return };
+            if let Some(volume) = self.volume(node) {
+                let inside = self.links.leaves(node).map(|leaf| scene.shapes().region(leaf));
+                self.set_volume(node, volume.refined(inside, self.pad));
+            }
+            next = self.links.after_up(node);
+        }
     }
 
     /// Computes the bounds of all nodes anew that are no leaves.

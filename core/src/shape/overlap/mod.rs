@@ -8,5 +8,5 @@
 mod slabs;
 mod surface;
 
-pub(super) use slabs::{Slab, flat, round, settle_between};
+pub(super) use slabs::{Slab, across_plane, flat, round, settle_between};
 pub(super) use surface::{box_surface, sphere_surface};

@@ -105,21 +105,31 @@ pub(in crate::shape) fn settle_between<R: Real>(
     (enter <= leave).then(|| t.clamp(enter, leave))
 }
 
-/// What a triangle lies between: its plane, and its outline seen along each axis. Computed one by
-/// one, as the first often tells.
-pub(in crate::shape) fn flat<R: Real>(
-    corners @ [a, b, c]: [Vec3<R>; 3],
-) -> impl Iterator<Item = Slab<R>> + Clone {
-    // Scaled by a power of two, so that no product of edges vanishes.
+/// The edges of a triangle, scaled by a power of two, so that no product of them vanishes.
+fn edges<R: Real>([a, b, c]: [Vec3<R>; 3]) -> [Vec3<R>; 3] {
     let edges = [b - a, c - b, a - c];
     let size = edges.iter().fold(R::ZERO, |size, edge| size.max(edge.max_abs()));
     let exponent = if size > R::ZERO { size.exponent_to_one() } else { 0 };
-    let [e, f, g] = edges.map(|edge| edge.map(|x| x.ldexp(exponent)));
-    let outline = [e, f, g].into_iter().flat_map(|edge: Vec3<R>| {
+    edges.map(|edge| edge.map(|x| x.ldexp(exponent)))
+}
+
+/// Across the plane of a triangle.
+pub(in crate::shape) fn across_plane<R: Real>(corners: [Vec3<R>; 3]) -> Vec3<R> {
+    let [e, f, _] = edges::<R>(corners);
+    e.across(f)
+}
+
+/// What a triangle lies between: its plane, and its outline seen along each axis. Computed one by
+/// one, as the first often tells.
+pub(in crate::shape) fn flat<R: Real>(
+    corners: [Vec3<R>; 3],
+) -> impl Iterator<Item = Slab<R>> + Clone {
+    let [a, ..] = corners;
+    let outline = edges::<R>(corners).into_iter().flat_map(|edge: Vec3<R>| {
         let (x, y, z) = (edge.x(), edge.y(), edge.z());
         [[R::ZERO, z, -y], [-z, R::ZERO, x], [y, -x, R::ZERO]]
     });
-    core::iter::once(e.across(f).to_array())
+    core::iter::once(across_plane::<R>(corners).to_array())
         .chain(outline)
         .map(move |across| Slab::around(a, Vec3::<R>::from_array(across), &corners))
 }
