@@ -68,7 +68,7 @@ impl<R: Real> Cone<R> {
         Hull { base, axis, height, base_radius, growth: self.growth(), apex_radius }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
         let half = self.height * R::HALF;
         let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
@@ -81,7 +81,7 @@ impl<R: Real> Cone<R> {
     }
 
     /// Between which steps the ray is inside the wall, and the frame that the steps count from.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[expect(clippy::type_complexity, reason = "three things that only make sense together")]
     fn wall(&self, frame: Frame<R>, slab: (R, R)) -> Option<(Frame<R>, (R, R), (R, R))> {
         let zero = R::Wide::default();
