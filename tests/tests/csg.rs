@@ -77,6 +77,7 @@ fn skipping_saves_more_than_half_of_the_tests() {
         let Either::One((combined, _)) = scene.shapes() else { panic!("{name}: of one kind") };
         let camera = Camera::new(tables.view(), 4.0 / 3.0).unwrap();
         let (mut rays, mut all, mut left) = (0, Counters::default(), Counters::default());
+        let mut by_object = vec![[0; 3]; combined.count()];
         let mut shoot = |ray: &Ray<f32>| {
             rays += 1;
             let slopes = Slopes::of(ray);
@@ -96,8 +97,13 @@ fn skipping_saves_more_than_half_of_the_tests() {
                     });
                     first
                 };
+                let before = (all.primitive_tests, left.primitive_tests);
                 let (found, same) = (first(false, &mut all), first(true, &mut left));
                 assert_eq!(found, same);
+                let [met, tests, without] = &mut by_object[id];
+                *met += 1;
+                *tests += all.primitive_tests - before.0;
+                *without += left.primitive_tests - before.1;
                 nearest = found.unwrap_or(nearest);
             }
             nearest
@@ -115,6 +121,10 @@ fn skipping_saves_more_than_half_of_the_tests() {
                     }
                 }
             }
+        }
+        for (id, [met, all, left]) in by_object.iter().enumerate() {
+            let parts = all / (*met).max(1);
+            println!("  object {id} of {parts} parts, box met {met} times: {all}, {left}");
         }
         let (all, left) = (all.primitive_tests, left.primitive_tests);
         println!("{name:<8}{rays:<9}{all:<20}{left:<15}{:.1} times", all as f64 / left as f64);
