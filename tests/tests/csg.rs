@@ -82,7 +82,7 @@ fn skipping_saves_more_than_half_of_the_tests() {
             rays += 1;
             let slopes = Slopes::of(ray);
             let mut nearest = f32::INFINITY;
-            for id in 0..combined.count() {
+            for (id, counts) in by_object.iter_mut().enumerate() {
                 let bounds = combined.bounds(id).grown(ray.slack());
                 if slopes.clip(bounds.lo, bounds.hi, 0.0, nearest).is_none() {
                     continue;
@@ -100,7 +100,7 @@ fn skipping_saves_more_than_half_of_the_tests() {
                 let before = (all.primitive_tests, left.primitive_tests);
                 let (found, same) = (first(false, &mut all), first(true, &mut left));
                 assert_eq!(found, same);
-                let [met, tests, without] = &mut by_object[id];
+                let [met, tests, without] = counts;
                 *met += 1;
                 *tests += all.primitive_tests - before.0;
                 *without += left.primitive_tests - before.1;
