@@ -217,7 +217,7 @@ fn are_inside<R: Real>([u, v, w]: [R::Wide; 3]) -> bool {
 #[inline(always)]
 fn are_beside<R: Real>([x, y, z]: [R; 3]) -> bool {
     let zero = R::ZERO;
-    (x > zero && y > zero && z > zero) || (x < zero && y < zero && z < zero)
+    if x > zero { y > zero && z > zero } else { x < zero && y < zero && z < zero }
 }
 
 impl<R: Real> Shape<R> for Triangle<R> {

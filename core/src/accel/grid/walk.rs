@@ -2,13 +2,14 @@
 
 use super::distance::{Slot, between};
 use super::{Grid, index, share};
-use crate::accel::lattice::{Lattice, Way};
+use crate::accel::lattice::Way;
 use crate::accel::{Accel, Id, Visitor};
 use crate::geom::Ray;
 use crate::num::{Axis, Progress, Real};
 use crate::probe::Probe;
 
 /// The walk along one axis.
+#[derive(Clone, Copy)]
 struct Along<R: Real> {
     sign: i32,
     /// Numbered in the order in which the ray meets them.
@@ -83,33 +84,6 @@ impl<R: Real> Along<R> {
     }
 }
 
-/// Moves on by `reach` cells along the axis where that is done first, and along the others to where
-/// single steps would be by then; says how far that is in the order of cells, or nothing where the
-/// limit comes first. Apart, for the room it takes on the stack.
-#[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(never))]
-fn leap<R: Real>(
-    lattice: &Lattice<R>,
-    ray: &Ray<R>,
-    [x, y, z]: [&mut Along<R>; 3],
-    reach: i32,
-    limit: R,
-) -> Option<isize> {
-    let [nx, ny, nz] = lattice.count();
-    let (ax, ay, az) = (x.after(reach, nx), y.after(reach, ny), z.after(reach, nz));
-    let t = ax.min(ay).min(az);
-    if limit <= t {
-        return None;
-    }
-    let [px, py, pz] = lattice.cell_of(ray.at(t));
-    Some(if ax <= ay && ax <= az {
-        x.leap(reach) + y.follow(t, false, py, ny) + z.follow(t, false, pz, nz)
-    } else if ay <= az {
-        y.leap(reach) + x.follow(t, true, px, nx) + z.follow(t, false, pz, nz)
-    } else {
-        z.leap(reach) + x.follow(t, true, px, nx) + y.follow(t, true, py, ny)
-    })
-}
-
 impl<R: Real, I: Id, O: Id, const SHARED: bool> Accel<R> for Grid<'_, R, I, O, SHARED> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let [x, y, z] = Axis::ALL.map(|axis| self.lattice.way(ray, axis));
@@ -117,16 +91,17 @@ impl<R: Real, I: Id, O: Id, const SHARED: bool> Accel<R> for Grid<'_, R, I, O, S
         let mut limit = visitor.limit().min(x.leave).min(y.leave).min(z.leave);
         let (count @ [nx, ny, nz], [cx, cy, cz]) =
             (self.lattice.count(), self.lattice.cell_of(ray.at(enter)));
-        let mut cell = index(count, cx, cy, cz);
-        let mut x = Along::new(x, cx, 1);
+        // The first step leads to where the ray enters: over a wall behind it, from the cell before.
+        let mut cell = index(count, cx, cy, cz).wrapping_add_signed(-x.sign as isize);
+        let mut x = Along { next: -R::INFINITY, ..Along::new(x, cx - x.sign, 1) };
         let mut y = Along::new(y, cy, nx as isize);
         let mut z = Along::new(z, cz, nx as isize * ny as isize);
         let (_, ends) = self.slots.split_first().unwrap_or((&O::new(0), &[]));
+        // Every step is at least one cell further along one axis, and none ever turns back.
+        let mut steps = if limit < enter { 0 } else { nx + ny + nz + 1 };
         // The shapes kept aside come as the list of a cell before the first one: so there is one
         // place where shapes are tested, and that can be part of the loop.
-        let (mut list, mut reach) = (self.aside.ids(), 0);
-        // Every step is at least one cell further along one axis, and none ever turns back.
-        let mut steps = nx + ny + nz + 1;
+        let mut list = self.aside.ids();
         loop {
             visitor.visit(list.iter().map(|id| id.get()));
             limit = limit.min(visitor.limit());
@@ -137,56 +112,90 @@ impl<R: Real, I: Id, O: Id, const SHARED: bool> Accel<R> for Grid<'_, R, I, O, S
                     return;
                 }
                 // The ray leaves the grid where it comes to the limit. Of walls at the same
-                // parameter that along x comes first, then that along y.
-                let stride = if reach == 1 {
-                    // Three branches, so that nothing has to be looked up by axis.
-                    if x.next <= y.next && x.next <= z.next {
-                        if limit <= x.next {
-                            return;
-                        }
-                        x.step()
-                    } else if y.next <= z.next {
-                        if limit <= y.next {
-                            return;
-                        }
-                        y.step()
-                    } else {
-                        if limit <= z.next {
-                            return;
-                        }
-                        z.step()
-                    }
-                } else if reach == 0 {
-                    if limit < enter {
+                // parameter that along x comes first, then that along y. Three branches, so that
+                // nothing has to be looked up by axis.
+                let stride = if x.next <= y.next && x.next <= z.next {
+                    if limit <= x.next {
                         return;
                     }
-                    0
+                    x.step()
+                } else if y.next <= z.next {
+                    if limit <= y.next {
+                        return;
+                    }
+                    y.step()
                 } else {
-                    let axes = [&mut x, &mut y, &mut z];
-                    let Some(stride) = leap(&self.lattice, ray, axes, reach, limit) else { return };
-                    stride
+                    if limit <= z.next {
+                        return;
+                    }
+                    z.step()
                 };
                 cell = cell.wrapping_add_signed(stride);
-                let found = if SHARED {
-                    share::slot(self.slots, self.references, cell)
-                } else {
-                    between(self.slots, ends, cell)
-                };
-                visitor.probe().step();
-                visitor.probe().leaf(matches!(found, Slot::Empty(_)));
-                match found {
-                    Slot::List(from, to) => {
-                        reach = 1;
-                        // A shared list goes by its place.
-                        if let Some(list) = self.references.get(from..to)
-                            && (!SHARED || visitor.admit_list(from))
-                        {
-                            break list;
-                        }
+                let mut found = self.look(ends, cell, visitor);
+                while let Slot::Empty(reach @ 2..) = found {
+                    steps -= 1;
+                    // Copies: the others stay in registers, as no pointer leads to them.
+                    let (copy, ways) = (*ray, [x, y, z]);
+                    let Some((ways, stride)) = self.leap(&copy, ways, reach as i32, limit) else {
+                        return;
+                    };
+                    if steps < 0 {
+                        return;
                     }
-                    Slot::Empty(distance) => reach = distance as i32,
+                    [x, y, z] = ways;
+                    cell = cell.wrapping_add_signed(stride);
+                    found = self.look(ends, cell, visitor);
+                }
+                if let Slot::List(from, to) = found
+                    && let Some(list) = self.references.get(from..to)
+                    // A shared list goes by its place.
+                    && (!SHARED || visitor.admit_list(from))
+                {
+                    break list;
                 }
             };
         }
+    }
+}
+
+impl<R: Real, I: Id, O: Id, const SHARED: bool> Grid<'_, R, I, O, SHARED> {
+    /// What is known of a cell that a ray comes to.
+    #[inline(always)]
+    fn look(&self, ends: &[O], cell: usize, visitor: &mut impl Visitor<R>) -> Slot {
+        let found = if SHARED {
+            share::slot(self.slots, self.references, cell)
+        } else {
+            between(self.slots, ends, cell)
+        };
+        visitor.probe().step();
+        visitor.probe().leaf(matches!(found, Slot::Empty(_)));
+        found
+    }
+
+    /// Over cells known to be empty. Apart, for the registers it takes.
+    #[cfg_attr(target_pointer_width = "32", cold, inline(never))]
+    #[cfg_attr(not(target_pointer_width = "32"), inline(always))]
+    fn leap(
+        &self,
+        ray: &Ray<R>,
+        [mut x, mut y, mut z]: [Along<R>; 3],
+        reach: i32,
+        limit: R,
+    ) -> Option<([Along<R>; 3], isize)> {
+        let [nx, ny, nz] = self.lattice.count();
+        let (ax, ay, az) = (x.after(reach, nx), y.after(reach, ny), z.after(reach, nz));
+        let t = ax.min(ay).min(az);
+        if limit <= t {
+            return None;
+        }
+        let [px, py, pz] = self.lattice.cell_of(ray.at(t));
+        let stride = if ax <= ay && ax <= az {
+            x.leap(reach) + y.follow(t, false, py, ny) + z.follow(t, false, pz, nz)
+        } else if ay <= az {
+            y.leap(reach) + x.follow(t, true, px, nx) + z.follow(t, false, pz, nz)
+        } else {
+            z.leap(reach) + x.follow(t, true, px, nx) + y.follow(t, true, py, ny)
+        };
+        Some(([x, y, z], stride))
     }
 }
