@@ -135,8 +135,8 @@ impl<R: Real, I: Id, O: Id, const SHARED: bool> Accel<R> for Grid<'_, R, I, O, S
                 while let Slot::Empty(reach @ 2..) = found {
                     steps -= 1;
                     // Copies: the others stay in registers, as no pointer leads to them.
-                    let (copy, ways) = (*ray, [x, y, z]);
-                    let Some((ways, stride)) = self.leap(&copy, ways, reach as i32, limit) else {
+                    let (copy, mut ways) = (*ray, [x, y, z]);
+                    let Some(stride) = self.leap(&copy, &mut ways, reach as i32, limit) else {
                         return;
                     };
                     if steps < 0 {
@@ -178,10 +178,10 @@ impl<R: Real, I: Id, O: Id, const SHARED: bool> Grid<'_, R, I, O, SHARED> {
     fn leap(
         &self,
         ray: &Ray<R>,
-        [mut x, mut y, mut z]: [Along<R>; 3],
+        [x, y, z]: &mut [Along<R>; 3],
         reach: i32,
         limit: R,
-    ) -> Option<([Along<R>; 3], isize)> {
+    ) -> Option<isize> {
         let [nx, ny, nz] = self.lattice.count();
         let (ax, ay, az) = (x.after(reach, nx), y.after(reach, ny), z.after(reach, nz));
         let t = ax.min(ay).min(az);
@@ -189,13 +189,12 @@ impl<R: Real, I: Id, O: Id, const SHARED: bool> Grid<'_, R, I, O, SHARED> {
             return None;
         }
         let [px, py, pz] = self.lattice.cell_of(ray.at(t));
-        let stride = if ax <= ay && ax <= az {
+        Some(if ax <= ay && ax <= az {
             x.leap(reach) + y.follow(t, false, py, ny) + z.follow(t, false, pz, nz)
         } else if ay <= az {
             y.leap(reach) + x.follow(t, true, px, nx) + z.follow(t, false, pz, nz)
         } else {
             z.leap(reach) + x.follow(t, true, px, nx) + y.follow(t, true, py, ny)
-        };
-        Some(([x, y, z], stride))
+        })
     }
 }
