@@ -11,14 +11,13 @@ use crate::probe::Probe;
 /// The walk along one axis.
 #[derive(Clone, Copy)]
 struct Along<R: Real> {
-    sign: i32,
     /// Numbered in the order in which the ray meets them.
     walls: R::Progress,
     /// The number of the next wall.
     wall: <R::Progress as Progress<R>>::Count,
     /// Parameter of the next wall.
     next: R,
-    /// What a step adds to the number of the cell.
+    /// What a step adds to the number of the cell; 0 if there is none.
     stride: isize,
 }
 
@@ -26,7 +25,7 @@ impl<R: Real> Along<R> {
     #[inline(always)]
     fn new(Way { sign, walls, .. }: Way<R>, cell: i32, stride: isize) -> Self {
         let wall = R::Progress::count(cell * sign + sign.max(0));
-        Self { sign, walls, wall, next: walls.at_count(wall), stride: stride * sign as isize }
+        Self { walls, wall, next: walls.at_count(wall), stride: stride * sign as isize }
     }
 
     /// Moves on by a cell; says how far that is in the order of cells.
@@ -47,9 +46,9 @@ impl<R: Real> Along<R> {
     /// How many cells there are behind the next wall, of so many in a row.
     fn left(&self, count: i32) -> i32 {
         let wall = R::Progress::number(self.wall);
-        match self.sign {
+        match self.stride {
             0 => 0,
-            1 => count - wall,
+            1.. => count - wall,
             _ => -wall,
         }
     }
@@ -63,11 +62,11 @@ impl<R: Real> Along<R> {
     /// those at `t` if this axis comes first; says how far that is in the order of cells. `near` is
     /// about the right cell.
     fn follow(&mut self, t: R, first: bool, near: i32, count: i32) -> isize {
-        if self.sign == 0 {
+        if self.stride == 0 {
             return 0;
         }
         let from = R::Progress::number(self.wall);
-        let near = if self.sign > 0 { near + 1 } else { -near };
+        let near = if self.stride > 0 { near + 1 } else { -near };
         let passed = |wall: R| wall < t || (first && wall == t);
         // As a number of steps from here; steps never go back.
         let mut steps = (near - from).max(0);
