@@ -124,12 +124,12 @@ pub(in crate::shape) fn across_plane<R: Real>(corners: [Vec3<R>; 3]) -> Vec3<R> 
 pub(in crate::shape) fn flat<R: Real>(
     corners: [Vec3<R>; 3],
 ) -> impl Iterator<Item = Slab<R>> + Clone {
-    let [a, ..] = corners;
-    let outline = edges::<R>(corners).into_iter().flat_map(|edge: Vec3<R>| {
+    let ([a, ..], edges @ [e, f, _]) = (corners, edges::<R>(corners));
+    let outline = edges.into_iter().flat_map(|edge: Vec3<R>| {
         let (x, y, z) = (edge.x(), edge.y(), edge.z());
         [[R::ZERO, z, -y], [-z, R::ZERO, x], [y, -x, R::ZERO]]
     });
-    core::iter::once(across_plane::<R>(corners).to_array())
+    core::iter::once(e.across(f).to_array())
         .chain(outline)
         .map(move |across| Slab::around(a, Vec3::<R>::from_array(across), &corners))
 }
