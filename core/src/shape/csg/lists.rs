@@ -36,6 +36,17 @@ impl<R: Real, const N: usize> Lists<R, N> {
         }
     }
 
+    /// Forgets all lists.
+    pub(super) fn clear(&mut self) {
+        self.crossings.clear();
+        self.begins.clear();
+    }
+
+    /// How many lists there are.
+    pub(super) fn depth(&self) -> usize {
+        self.begins.len()
+    }
+
     /// The list on top.
     pub(super) fn top(&self) -> &[Crossing<R>] {
         let begin = self.begins.last().copied().unwrap_or_default();
@@ -45,6 +56,19 @@ impl<R: Real, const N: usize> Lists<R, N> {
     /// Empties the list on top.
     pub(super) fn clear_top(&mut self) {
         self.crossings.truncate(self.begins.last().copied().unwrap_or_default());
+    }
+
+    /// In what part of a window a second operand can change the list on top, if in any. A union is not
+    /// changed within one of its intervals; what is joined by another operator counts only where there
+    /// is something to be cut.
+    pub(super) fn matters(&self, operator: Operator, (min, max): (R, R)) -> Option<(R, R)> {
+        let top = self.top();
+        if operator == Operator::Union {
+            let around = |span: &[Crossing<R>; 2]| span[0].t < min && max < span[1].t;
+            return (!top.as_chunks().0.iter().any(around)).then_some((min, max));
+        }
+        let (min, max) = (top.first()?.t.max(min), top.last()?.t.min(max));
+        (min <= max).then_some((min, max))
     }
 
     /// Puts the two lists on top together.
@@ -114,5 +138,36 @@ impl<R: Real, const N: usize> Lists<R, N> {
             }
         }
         out
+    }
+}
+
+/// Where a ray is inside of parts, in the order in which an object names them: two parameters each,
+/// the first beyond the second where it is not, or where that is not known.
+#[derive(Debug, Default)]
+pub(super) struct Spans<R, const N: usize>(Vec<R, N>);
+
+impl<R: Real, const N: usize> Spans<R, N> {
+    const UNKNOWN: [R; 2] = [R::ONE, R::ZERO];
+    const NOWHERE: [R; 2] = [R::MAX, R::ZERO];
+
+    /// What is known of a part.
+    pub(super) fn get(&self, place: usize) -> Option<Option<(R, R)>> {
+        match self.0.get(2 * place..2 * place + 2)? {
+            [enter, leave] if enter <= leave => Some(Some((*enter, *leave))),
+            span => (*span != Self::UNKNOWN).then_some(None),
+        }
+    }
+
+    /// Remembers what a test told.
+    pub(super) fn set(&mut self, place: usize, span: Option<(R, R)>) {
+        while self.0.len() < 2 * place + 2 {
+            // There is room: see `Lists::push`.
+            if self.0.extend_from_slice(&Self::UNKNOWN).is_err() {
+                return;
+            }
+        }
+        if let Some(at) = self.0.get_mut(2 * place..2 * place + 2) {
+            at.copy_from_slice(&span.map_or(Self::NOWHERE, |(enter, leave)| [enter, leave]));
+        }
     }
 }

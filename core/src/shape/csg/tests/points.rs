@@ -141,7 +141,7 @@ fn cutting_bounds_moves_no_point_in_or_out() {
 #[test]
 fn skipping_changes_no_bit_and_crossings_are_where_points_change() {
     let mut random = Random(9);
-    let (mut rays, mut hits, mut all_tests, mut tests) = (0, 0, 0, 0);
+    let (mut rays, mut hits, mut all_tests, mut tests, mut lazy_tests) = (0, 0, 0, 0, 0);
     objects(&mut random, 3000, |random, all, csg, steps| {
         for _ in 0..20 {
             let r = ray_through(csg.bounds(0), random);
@@ -152,11 +152,19 @@ fn skipping_changes_no_bit_and_crossings_are_where_points_change() {
             (all_tests, tests) = (all_tests + most, tests + fewer);
             let per_ray = csg.per_ray(&r);
             // In every window the same are found.
-            let (min, max) = (random.within(-1.0, 6.0), random.within(0.0, 12.0));
-            let counts = |(t, _): &&(f32, u16)| *t > min && *t <= max;
-            let first = full.iter().find(counts).map(|(t, _)| *t);
-            assert_eq!(csg.hit(0, &r, &per_ray, min, max), first);
-            assert_eq!(csg.occludes(0, &r, &per_ray, min, max), first.is_some());
+            for _ in 0..4 {
+                let (min, max) = (random.within(-1.0, 6.0), random.within(0.0, 12.0));
+                let counts = |(t, _): &&(f32, u16)| *t > min && *t <= max;
+                let expected = full.iter().find(counts).copied();
+                let mut probe = Counters::default();
+                let first = csg.first_crossing(0, &r, &per_ray, (min, max), &mut probe);
+                assert_eq!(first.map(|c| (c.t, c.part)), expected, "{steps:?} {r:?} {min} {max}");
+                assert!(probe.primitive_tests <= most);
+                lazy_tests += probe.primitive_tests;
+                let t = expected.map(|(t, _)| t);
+                assert_eq!(csg.hit(0, &r, &per_ray, min, max), t);
+                assert_eq!(csg.occludes(0, &r, &per_ray, min, max), t.is_some());
+            }
             rays += 1;
             hits += full.len();
             assert!(full.len() % 2 == 0 && full.is_sorted_by(|a, b| a.0 <= b.0));
@@ -186,6 +194,7 @@ fn skipping_changes_no_bit_and_crossings_are_where_points_change() {
         }
     });
     println!("{rays} rays, {hits} crossings, {all_tests} tests, {tests} with skipping");
+    println!("{lazy_tests} for the first in four windows a ray");
     assert!(rays >= 60_000 && hits > 40_000 && tests * 4 < all_tests);
 }
 
