@@ -67,6 +67,11 @@ impl<R: Real> Material<R> {
         self.color.is_finite() && shares && pattern
     }
 
+    /// Whether rays go on from it.
+    pub(crate) fn mirrors(&self) -> bool {
+        self.specular > R::ZERO || self.transmission > R::ZERO
+    }
+
     /// The colour at a point of a surface with that normal.
     pub fn color_at(&self, point: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
         match self.pattern {

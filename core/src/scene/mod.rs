@@ -201,7 +201,7 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
 
     /// Whether any of the surfaces mirrors or transmits. Time in proportion to their number.
     pub fn mirrors(&self) -> bool {
-        self.materials.iter().any(|it| it.specular > R::ZERO || it.transmission > R::ZERO)
+        self.materials.iter().any(Material::mirrors)
     }
 
     /// The surface where a ray hit a shape; `None` where a normal cannot be told. The hit is one of

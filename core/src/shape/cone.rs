@@ -71,19 +71,19 @@ impl<R: Real> Cone<R> {
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<Passage<R>> {
         let half = self.height * R::HALF;
-        let frame = Frame::of(ray, length, self.hull().middle(), self.axis);
+        let mut frame = Frame::of(ray, length, self.hull().middle(), self.axis);
         let slab = frame.slab(half)?;
-        let (frame, slab, wall) = self.wall(frame, slab)?;
+        let (slab, wall) = self.wall(&mut frame, slab)?;
         // A tip is a disc without extent; taken for one, it leaves no hole to slip through.
         let closed = |radius| self.capped || radius == R::ZERO;
         let closed = (closed(self.base_radius), closed(self.apex_radius));
         Some((frame, frame.ends(wall, slab, closed)))
     }
 
-    /// Between which steps the ray is inside the wall, and the frame that the steps count from.
+    /// Between which steps the ray is inside the slab, and between which inside the wall. The frame is
+    /// moved to where they count from: two of them would lie on the stack.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    #[expect(clippy::type_complexity, reason = "three things that only make sense together")]
-    fn wall(&self, frame: Frame<R>, slab: (R, R)) -> Option<(Frame<R>, (R, R), (R, R))> {
+    fn wall(&self, frame: &mut Frame<R>, slab: (R, R)) -> Option<((R, R), (R, R))> {
         let zero = R::Wide::default();
         let growth = self.growth();
         let middle = (self.base_radius + self.apex_radius) * R::HALF;
@@ -94,11 +94,12 @@ impl<R: Real> Cone<R> {
             let r = middle + growth * frame.z;
             (step.times(r) - frame.q.dot(frame.d), frame.q.dot(frame.q) - r.times(r))
         };
-        let vertex = R::ratio(equation(&frame).0, a).clamp(slab.0, slab.1);
+        let vertex = R::ratio(equation(frame).0, a).clamp(slab.0, slab.1);
         let vertex = if vertex.is_finite() { vertex } else { R::ZERO };
-        let (frame, slab) = (frame.moved(vertex), (slab.0 - vertex, slab.1 - vertex));
+        *frame = frame.moved(vertex);
+        let slab = (slab.0 - vertex, slab.1 - vertex);
 
-        let (b, c) = equation(&frame);
+        let (b, c) = equation(frame);
         let root = match R::root(a, b, c) {
             Some(root) => root,
             // Steeper than the wall, a ray crosses it whatever the rounding says.
@@ -137,7 +138,7 @@ impl<R: Real> Cone<R> {
         } else {
             (-R::INFINITY, lo)
         };
-        (wall.0 <= wall.1).then_some((frame, slab, wall))
+        (wall.0 <= wall.1).then_some((slab, wall))
     }
 }
 

@@ -227,13 +227,9 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
             rays.pop();
             return scene.background();
         };
-        let Surface { point, normal, error, reach, .. } = *surface;
         let material = scene.material(hit.id);
-        let origin = R::beside(point, normal, error, reach);
-        let mirrors = material.specular > R::ZERO || material.transmission > R::ZERO;
-        let mirrored =
-            if mirrors { mirrored(now.ray.direction(), surface) } else { Vec3::<R>::default() };
-        let arrival = Arrival { surface, material, origin, mirrored };
+        let mirrors = material.mirrors();
+        let arrival = Arrival::of(now.ray.direction(), surface, material, mirrors);
         let color = self.local(now, &arrival, probe);
         if mirrors && now.depth < self.settings.max_depth {
             self.go_on(rays, &arrival);
@@ -362,7 +358,22 @@ struct Towards<R: Real> {
 /// A ray that goes on from a surface, and its share.
 type Spawned<R> = Option<(Ray<R>, R)>;
 
-impl<R: Real> Arrival<'_, R> {
+impl<'a, R: Real> Arrival<'a, R> {
+    /// Of a ray with that direction.
+    // Apart where registers are few: what is on the stack meanwhile is not below a shadow ray.
+    #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
+    fn of(
+        direction: Vec3<R>,
+        surface: &'a Surface<R>,
+        material: &'a Material<R>,
+        mirrors: bool,
+    ) -> Self {
+        let Surface { point, normal, error, reach, .. } = *surface;
+        let origin = R::beside(point, normal, error, reach);
+        let mirrored = if mirrors { mirrored(direction, surface) } else { Vec3::<R>::default() };
+        Self { surface, material, origin, mirrored }
+    }
+
     /// The ray to a light; `None` where it can be left out.
     #[cfg_attr(
         not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
@@ -388,7 +399,8 @@ impl<R: Real> Arrival<'_, R> {
         Some(Towards { ray, distance, faces })
     }
 
-    /// What a light adds at most, in any channel.
+    /// What a light adds at most, in any channel. Apart, as only adaptive recursion asks.
+    #[inline(never)]
     fn at_most(&self, ray: &Ray<R>, light: &Light<R>) -> R {
         let cosine = R::narrow(self.surface.shading.dot(ray.direction()));
         (self.material.diffuse * cosine + self.material.specular) * light.color.max_abs()
