@@ -65,24 +65,31 @@ impl<R: Real> Sphere<R> {
     /// Middle less and plus half the chord: not quite the crossings, and never wild.
     #[inline]
     pub(crate) fn chord(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
-        let (middle, half) = self.middle(ray, length)?;
+        let (middle, half) = self.middle(ray, length, false)?;
         Some((middle - half, middle + half))
     }
 
-    /// The middle of the chord and half its length.
+    /// The middle of the chord and half its length; `ahead` as for [`Real::chord`].
     #[inline(always)]
-    fn middle(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
+    fn middle(&self, ray: &Ray<R>, length: &Length<R>, ahead: bool) -> Option<(R, R)> {
         let f = self.center - ray.origin();
         if R::passes(f, &length.course, self.radius) {
             return None;
         }
-        R::chord(f, ray.direction(), [length.inverse, length.inverse_squared], self.radius)
+        let inverse = [length.inverse, length.inverse_squared];
+        R::chord(f, ray.direction(), inverse, self.radius, ahead)
     }
 
     /// Both crossings, the smaller first.
     #[inline(always)]
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
-        let (middle, half) = self.middle(ray, length)?;
+        self.crossings_ahead(ray, length, false)
+    }
+
+    /// The same, which may be none where only what is `ahead` counts.
+    #[inline(always)]
+    fn crossings_ahead(&self, ray: &Ray<R>, length: &Length<R>, ahead: bool) -> Option<(R, R)> {
+        let (middle, half) = self.middle(ray, length, ahead)?;
         if R::EXACT {
             return Some((middle - half, middle + half));
         }
@@ -139,7 +146,8 @@ impl<R: Real> Shape<R> for Sphere<R> {
 
     #[inline(always)]
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
-        let (near, far) = self.crossings(ray, length)?;
+        // Mostly the sphere that a ray leaves: where numbers are exact, told without a root.
+        let (near, far) = self.crossings_ahead(ray, length, min >= R::ZERO)?;
         if near > min {
             (near <= max).then_some(near)
         } else {

@@ -301,10 +301,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     }
 }
 
-#[cfg_attr(
-    not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
-    inline(never)
-)]
+#[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(never))]
 fn surface<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     ray: &Ray<R>,
@@ -375,10 +372,7 @@ impl<'a, R: Real> Arrival<'a, R> {
     }
 
     /// The ray to a light; `None` where it can be left out.
-    #[cfg_attr(
-        not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
-        inline(never)
-    )]
+    #[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(never))]
     fn towards(&self, ray: &Ray<R>, light: &Light<R>, skips: Skips) -> Option<Towards<R>> {
         let towards = R::towards(self.origin, light.position);
         let zero = R::Wide::default();
@@ -407,10 +401,7 @@ impl<'a, R: Real> Arrival<'a, R> {
     }
 
     /// What the surface sends back of white light from a direction of length 1.
-    #[cfg_attr(
-        not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
-        inline(never)
-    )]
+    #[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(never))]
     fn reflected(&self, ray: &Ray<R>, towards: Vec3<R>) -> Vec3<R> {
         let Material { diffuse, specular, shine, .. } = *self.material;
         let color = self.material.color_at(self.surface.point, self.surface.normal);

@@ -100,6 +100,7 @@ pub(super) fn chord(
     direction: Vec3,
     inverse_squared: Fixed,
     radius: Fixed,
+    ahead: bool,
 ) -> Option<(Fixed, Fixed)> {
     let [dx, dy, dz] = direction.to_array().map(Fixed::to_bits);
     let is_unit = inverse_squared == Fixed::ONE;
@@ -112,11 +113,18 @@ pub(super) fn chord(
     if left < 0 {
         return None;
     }
-    let half = Fixed::signed(false, nearest_root(left as u64));
     // What rounding left along the ray is taken back.
     let rest = Fixed::from_bits(cut(product(x, dx) + product(y, dy) + product(z, dz)));
-    if is_unit {
-        return Some((Fixed::from_bits(middle) + rest, half));
+    if !is_unit {
+        let half = Fixed::signed(false, nearest_root(left as u64));
+        let middle = Fixed::from_bits(middle) + rest * inverse_squared;
+        return Some((middle, half * inverse_squared.sqrt()));
     }
-    Some((Fixed::from_bits(middle) + rest * inverse_squared, half * inverse_squared.sqrt()))
+    let middle = Fixed::from_bits(middle) + rest;
+    // The root nearest to `left` is at most m where that is at most m² + m: both crossings are behind.
+    let behind = middle.to_bits();
+    if ahead && behind < 0 && left <= product(behind, behind) - i64::from(behind) {
+        return None;
+    }
+    Some((middle, Fixed::signed(false, nearest_root(left as u64))))
 }
