@@ -220,6 +220,8 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
         };
         let (t, id) = (hit.local, hit.id);
         let d = ray.direction();
+        // First, as a normal that is made of it then is, too.
+        let point = ray.at(t);
         let outside = self.shapes.normal(id, ray, t).unit()?;
         let front = outside.dot(d) <= R::Wide::default();
         let normal = if front { outside } else { -outside };
@@ -231,7 +233,6 @@ impl<'a, R: Real, S: Shapes<R>> Scene<'a, R, S> {
             Some(n) => n,
             None => normal,
         };
-        let point = ray.at(t);
         let reach = point.max_abs();
         let computed_from = ray.reach().max(reach).max(self.shapes.reach(id));
         let error = R::ulps_at(R::POINT_ERROR, computed_from);

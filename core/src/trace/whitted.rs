@@ -229,7 +229,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
         };
         let material = scene.material(hit.id);
         let mirrors = material.mirrors();
-        let arrival = Arrival::of(now.ray.direction(), surface, material, mirrors);
+        let arrival = Arrival::of(&now.ray, surface, material, mirrors);
         let color = self.local(now, &arrival, probe);
         if mirrors && now.depth < self.settings.max_depth {
             self.go_on(rays, &arrival);
@@ -310,27 +310,28 @@ fn surface<R: Real, S: Shapes<R>>(
     scene.surface(ray, hit)
 }
 
-/// A direction mirrored by a surface.
+/// A ray's direction mirrored by a surface.
 #[inline]
-fn mirrored<R: Real>(direction: Vec3<R>, surface: &Surface<R>) -> Vec3<R> {
-    let mirrored = mirror::<R>(direction, surface.shading);
+fn mirrored<R: Real>(ray: &Ray<R>, surface: &Surface<R>) -> Vec3<R> {
+    let mirrored = mirror(ray, surface.shading);
     if surface.smooth && mirrored.dot(surface.normal) < R::Wide::default() {
-        return mirrored_flat::<R>(direction, surface.normal);
+        return mirrored_flat(ray, surface.normal);
     }
     mirrored
 }
 
 #[inline(always)]
-fn mirror<R: Real>(direction: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
-    let along = R::narrow(direction.dot(normal));
-    R::at(direction, normal, (-along).way(along))
+fn mirror<R: Real>(ray: &Ray<R>, normal: Vec3<R>) -> Vec3<R> {
+    let along = R::narrow(ray.direction().dot(normal));
+    // A direction is in range where the ray's reach is.
+    R::along(ray.direction(), normal, (-along).way(along), ray.reach())
 }
 
 /// Where an interpolated normal would send the ray into the surface.
 #[cold]
 #[inline(never)]
-fn mirrored_flat<R: Real>(direction: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
-    mirror::<R>(direction, normal)
+fn mirrored_flat<R: Real>(ray: &Ray<R>, normal: Vec3<R>) -> Vec3<R> {
+    mirror(ray, normal)
 }
 
 /// A ray's arrival at a surface.
@@ -356,18 +357,18 @@ struct Towards<R: Real> {
 type Spawned<R> = Option<(Ray<R>, R)>;
 
 impl<'a, R: Real> Arrival<'a, R> {
-    /// Of a ray with that direction.
+    /// Of a ray.
     // Apart where registers are few: what is on the stack meanwhile is not below a shadow ray.
     #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
     fn of(
-        direction: Vec3<R>,
+        ray: &Ray<R>,
         surface: &'a Surface<R>,
         material: &'a Material<R>,
         mirrors: bool,
     ) -> Self {
         let Surface { point, normal, error, reach, .. } = *surface;
         let origin = R::beside(point, normal, error, reach);
-        let mirrored = if mirrors { mirrored(direction, surface) } else { Vec3::<R>::default() };
+        let mirrored = if mirrors { mirrored(ray, surface) } else { Vec3::<R>::default() };
         Self { surface, material, origin, mirrored }
     }
 

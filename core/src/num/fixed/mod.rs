@@ -229,6 +229,9 @@ impl Real for Fixed {
     }
     fn floor_ratio(self, divisor: Self) -> i32 {
         let (n, d) = (self.to_bits(), divisor.to_bits());
+        if d > 0 {
+            return n.div_euclid(d);
+        }
         let (Some(cut), Some(rest)) = (n.checked_div(d), n.checked_rem(d)) else { return i32::MAX };
         cut - i32::from(rest != 0 && (rest < 0) != (d < 0))
     }

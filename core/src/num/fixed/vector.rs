@@ -205,6 +205,10 @@ impl Vector<Fixed> for Vec3 {
     }
 
     fn scale(self, other: Self) -> Self {
+        // White light is common.
+        if other == Self::new(Fixed::ONE, Fixed::ONE, Fixed::ONE) {
+            return self;
+        }
         if self.is_within(2) && other.is_within(2) {
             return self.zip(other, |a, b| Fixed::from_bits(short(a, b)));
         }
