@@ -125,7 +125,7 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
     if FOURS && !A::HANDS_OVER_ALL && unbounded.is_empty() && Framing::passes_by(scene, ray) {
         return (goal, interval.max);
     }
-    let (ray, min, limit, near) = framed(scene, ray, interval);
+    let (ray, min, limit, near) = framed(scene, ray, interval, !A::HANDS_OVER_ALL);
     let ray = &ray;
     let per_ray = shapes.per_ray(ray);
     let mut search =
@@ -149,17 +149,18 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
 }
 
 /// The ray as it is traced, its interval with the greatest number that belongs to it, and whether it
-/// comes near the bounded shapes. A copy: that stays in registers, what a pointer leads to would not.
+/// comes near the bounded shapes, if that is asked. A copy: that stays in registers, what a pointer leads to would not.
 #[inline(always)]
 fn framed<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
     ray: &Ray<R>,
     interval: Interval<R>,
+    is_near: bool,
 ) -> (Ray<R>, R, R, bool) {
     let (ray, min, limit, near) = if Framing::is_needless(scene, ray) {
         (*ray, interval.min, interval.max.next_down(), true)
     } else {
-        let Framing { ray, interval, near, .. } = Framing::of(scene, ray, interval);
+        let Framing { ray, interval, near, .. } = Framing::of(scene, ray, interval, is_near);
         (ray, interval.min, interval.max.next_down(), near)
     };
     (ray.with_slack(scene.slack()), min, limit, near)

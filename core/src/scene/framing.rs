@@ -16,7 +16,7 @@ pub(crate) struct Framing<R: Real> {
     exponent: i32,
     /// Parameter of the new origin, before scaling back.
     shift: R,
-    /// Whether the ray comes near the bounded shapes at all.
+    /// Whether the ray comes near the bounded shapes at all; told only if it is asked.
     pub(crate) near: bool,
 }
 
@@ -63,6 +63,7 @@ impl<R: Real> Framing<R> {
         scene: &Scene<'_, R, S>,
         ray: &Ray<R>,
         asked: Interval<R>,
+        is_near: bool,
     ) -> Self {
         let (ray, far) = (ray.with_slack(scene.slack()), scene.far());
         let mut framing = Self { ray, interval: asked, exponent: 0, shift: R::ZERO, near: true };
@@ -82,7 +83,9 @@ impl<R: Real> Framing<R> {
         }
         if origin.max_abs() > far {
             let around = scene.bounds().grown(far);
-            framing.ray = moved(&ray, origin, direction);
+            if framing.exponent != 0 {
+                framing.ray = moved(&ray, origin, direction);
+            }
             let slopes = Slopes::of(&framing.ray);
             match slopes.clip(around.lo, around.hi, -R::MAX, R::MAX) {
                 Some((enter, _)) => {
@@ -91,9 +94,11 @@ impl<R: Real> Framing<R> {
                     let less = |t: R| if t.is_finite() { t - enter } else { t };
                     framing.interval = Interval::new(less(min), less(max));
                     framing.shift = enter;
-                    // From there it can be told whether it meets the box of all shapes.
-                    let room = scene.bounds().grown(scene.pad());
-                    framing.near = meets(room, &slopes.from(origin));
+                    if is_near {
+                        // From there it can be told whether it meets the box of all shapes.
+                        let room = scene.bounds().grown(scene.pad());
+                        framing.near = meets(room, &slopes.from(origin));
+                    }
                 }
                 None => framing.near = false,
             }
@@ -106,7 +111,7 @@ impl<R: Real> Framing<R> {
     #[cold]
     #[inline(never)]
     pub(crate) fn traced<S: Shapes<R>>(scene: &Scene<'_, R, S>, ray: &Ray<R>) -> Ray<R> {
-        Self::of(scene, ray, Interval::RAY).ray
+        Self::of(scene, ray, Interval::RAY, false).ray
     }
 
     /// A parameter of the traced ray as one of the ray that was asked for.
@@ -118,7 +123,7 @@ impl<R: Real> Framing<R> {
         asked: Interval<R>,
         t: R,
     ) -> R {
-        Self::of(scene, ray, asked).restore(asked, t)
+        Self::of(scene, ray, asked, false).restore(asked, t)
     }
 
     fn restore(&self, asked: Interval<R>, t: R) -> R {
