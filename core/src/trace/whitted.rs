@@ -240,7 +240,7 @@ impl<'a, R: Real, S: Shapes<R>, A: Accel<R>, M: Mailbox> Tracer<'a, R, S, A, M> 
     }
 
     /// Puts those rays in the place of the last one that go on from where it has arrived.
-    #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
+    #[cfg_attr(target_arch = "arm", inline(never))]
     fn go_on(&self, rays: &mut VecView<Pending<R>>, arrival: &Arrival<'_, R>) {
         let Some(Pending { ray, weight, depth }) = rays.last() else { return };
         let Settings { secondary, cutoff, .. } = self.settings;
@@ -360,12 +360,7 @@ impl<'a, R: Real> Arrival<'a, R> {
     /// Of a ray.
     // Apart where registers are few: what is on the stack meanwhile is not below a shadow ray.
     #[cfg_attr(all(target_arch = "arm", not(target_has_atomic = "32")), inline(never))]
-    fn of(
-        ray: &Ray<R>,
-        surface: &'a Surface<R>,
-        material: &'a Material<R>,
-        mirrors: bool,
-    ) -> Self {
+    fn of(ray: &Ray<R>, surface: &'a Surface<R>, material: &'a Material<R>, mirrors: bool) -> Self {
         let Surface { point, normal, error, reach, .. } = *surface;
         let origin = R::beside(point, normal, error, reach);
         let mirrored = if mirrors { mirrored(ray, surface) } else { Vec3::<R>::default() };
@@ -402,7 +397,10 @@ impl<'a, R: Real> Arrival<'a, R> {
     }
 
     /// What the surface sends back of white light from a direction of length 1.
-    #[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(never))]
+    #[cfg_attr(
+        not(any(target_pointer_width = "64", target_arch = "wasm32", target_abi = "eabihf")),
+        inline(never)
+    )]
     fn reflected(&self, ray: &Ray<R>, towards: Vec3<R>) -> Vec3<R> {
         let Material { diffuse, specular, shine, .. } = *self.material;
         let color = self.material.color_at(self.surface.point, self.surface.normal);
