@@ -246,6 +246,11 @@ fn occludes<R: Real, T: Shape<R>>(
     shape.occludes(ray, per_ray, min, max)
 }
 
+#[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
+fn normal<R: Real, T: Shape<R>>(shape: &T, ray: &Ray<R>, t: R) -> Vec3<R> {
+    shape.normal(ray, t)
+}
+
 impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
     type PerRay = PerRay<R>;
 
@@ -355,7 +360,16 @@ impl<'a, R: Real> Shapes<R> for Solids<'a, R> {
 
     #[cfg_attr(all(target_pointer_width = "32", not(target_arch = "wasm32")), inline(never))]
     fn normal(&self, id: usize, ray: &Ray<R>, t: R) -> Vec3<R> {
-        self.chain().normal(id, ray, t)
+        match self.solid(id) {
+            None => Vec3::<R>::default(),
+            Some(Solid::Sphere(it)) => normal(it, ray, t),
+            Some(Solid::Triangle(it)) => normal(it, ray, t),
+            Some(Solid::Polygon(it)) => it.normal(ray, t),
+            Some(Solid::Box(it)) => normal(it, ray, t),
+            Some(Solid::Cylinder(it)) => it.normal(ray, t),
+            Some(Solid::Cone(it)) => it.normal(ray, t),
+            Some(Solid::Plane(it)) => normal(it, ray, t),
+        }
     }
 
     fn shading_normal(&self, id: usize, ray: &Ray<R>, t: R) -> Option<Vec3<R>> {
