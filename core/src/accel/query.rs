@@ -306,6 +306,8 @@ impl<R: Real> Goal<R> for Blocked {
         self.guess
     }
 
+    // A frame less where the stack is small.
+    #[cfg_attr(all(target_arch = "arm", not(target_abi = "eabihf")), inline(always))]
     fn test<S: Shapes<R>>(
         &mut self,
         line: &Line<'_, R, S>,
