@@ -223,15 +223,14 @@ pub trait Real:
     /// For a sphere of that radius, the parameter of a ray's point nearest to its centre, and from
     /// there to where the ray meets the sphere; `None` where it passes by. `towards` is the way from
     /// the ray's origin to the centre; `inverse` and `inverse_squared` are those of the direction's
-    /// length. If only what is `ahead` counts, at parameters beyond 0, then it may be `None` as well
-    /// where the sphere is behind.
+    /// length. It may be `None` as well where the ray meets the sphere at no parameter beyond `min`.
     #[inline(always)]
     fn chord(
         towards: Self::Vec3,
         direction: Self::Vec3,
         [inverse, inverse_squared]: [Self; 2],
         radius: Self,
-        _ahead: bool,
+        _min: Self,
     ) -> Option<(Self, Self)> {
         let middle = Self::narrow(towards.dot(direction)) * inverse_squared;
         let across = towards - direction * middle;

@@ -65,31 +65,31 @@ impl<R: Real> Sphere<R> {
     /// Middle less and plus half the chord: not quite the crossings, and never wild.
     #[inline]
     pub(crate) fn chord(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
-        let (middle, half) = self.middle(ray, length, false)?;
+        let (middle, half) = self.middle(ray, length, -R::INFINITY)?;
         Some((middle - half, middle + half))
     }
 
-    /// The middle of the chord and half its length; `ahead` as for [`Real::chord`].
+    /// The middle of the chord and half its length; `min` as for [`Real::chord`].
     #[inline(always)]
-    fn middle(&self, ray: &Ray<R>, length: &Length<R>, ahead: bool) -> Option<(R, R)> {
+    fn middle(&self, ray: &Ray<R>, length: &Length<R>, min: R) -> Option<(R, R)> {
         let f = self.center - ray.origin();
         if R::passes(f, &length.course, self.radius) {
             return None;
         }
         let inverse = [length.inverse, length.inverse_squared];
-        R::chord(f, ray.direction(), inverse, self.radius, ahead)
+        R::chord(f, ray.direction(), inverse, self.radius, min)
     }
 
     /// Both crossings, the smaller first.
     #[inline(always)]
     pub(super) fn crossings(&self, ray: &Ray<R>, length: &Length<R>) -> Option<(R, R)> {
-        self.crossings_ahead(ray, length, false)
+        self.crossings_beyond(ray, length, -R::INFINITY)
     }
 
-    /// The same, which may be none where only what is `ahead` counts.
+    /// The same, which may be none where both are at no parameter beyond `min`.
     #[inline(always)]
-    fn crossings_ahead(&self, ray: &Ray<R>, length: &Length<R>, ahead: bool) -> Option<(R, R)> {
-        let (middle, half) = self.middle(ray, length, ahead)?;
+    fn crossings_beyond(&self, ray: &Ray<R>, length: &Length<R>, min: R) -> Option<(R, R)> {
+        let (middle, half) = self.middle(ray, length, min)?;
         if R::EXACT {
             return Some((middle - half, middle + half));
         }
@@ -147,7 +147,7 @@ impl<R: Real> Shape<R> for Sphere<R> {
     #[inline(always)]
     fn hit(&self, ray: &Ray<R>, length: &Length<R>, min: R, max: R) -> Option<R> {
         // Mostly the sphere that a ray leaves: where numbers are exact, told without a root.
-        let (near, far) = self.crossings_ahead(ray, length, min >= R::ZERO)?;
+        let (near, far) = self.crossings_beyond(ray, length, min)?;
         if near > min {
             (near <= max).then_some(near)
         } else {

@@ -100,7 +100,7 @@ pub(super) fn chord(
     direction: Vec3,
     inverse_squared: Fixed,
     radius: Fixed,
-    ahead: bool,
+    min: Fixed,
 ) -> Option<(Fixed, Fixed)> {
     let [dx, dy, dz] = direction.to_array().map(Fixed::to_bits);
     let is_unit = inverse_squared == Fixed::ONE;
@@ -123,7 +123,7 @@ pub(super) fn chord(
     let middle = Fixed::from_bits(middle) + rest;
     // The root nearest to `left` is at most m where that is at most m² + m: both crossings are behind.
     let behind = middle.to_bits();
-    if ahead && behind < 0 && left <= product(behind, behind) - i64::from(behind) {
+    if behind < 0 && min >= Fixed::ZERO && left <= product(behind, behind) - i64::from(behind) {
         return None;
     }
     Some((middle, Fixed::signed(false, nearest_root(left as u64))))

@@ -355,10 +355,10 @@ impl Real for Fixed {
         direction: Vec3,
         [_, inverse_squared]: [Self; 2],
         radius: Self,
-        ahead: bool,
+        min: Self,
     ) -> Option<(Self, Self)> {
         let [x, y, z] = towards.to_array().map(Self::to_bits);
-        chord::chord(x, y, z, direction, inverse_squared, radius, ahead)
+        chord::chord(x, y, z, direction, inverse_squared, radius, min)
     }
     /// Errors do not grow with the distance: as far as the range goes.
     fn far(_scale: Self) -> Self {

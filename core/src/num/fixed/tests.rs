@@ -402,7 +402,7 @@ fn no_sphere_that_is_met_is_passed_by() {
         let towards = center - origin;
         let direction = if i % 3 == 0 { unit } else { (aim - origin).unit().unwrap_or(unit) };
         let [x, y, z] = towards.to_array().map(Fixed::to_bits);
-        let met = chord::chord(x, y, z, direction, Fixed::ONE, radius, false).is_some();
+        let met = chord::chord(x, y, z, direction, Fixed::ONE, radius, -Fixed::INFINITY).is_some();
         let (passes, short) = chord::both(direction, origin.max_abs(), towards, radius);
         assert!(!(met && (passes || short)), "{origin:?} {direction:?} {center:?} {radius:?}");
         passed += u32::from(!met);
