@@ -12,6 +12,7 @@ use kibiray::plan::{Plan, Structure, Wishes, plan};
 use kibiray::scene::{Scene, Shapes};
 use kibiray::trace::{Adaptive, MOST_LEVELS, Middle, Sampling, Tracer, Uniform};
 
+use crate::costs::Costs;
 use crate::options::{
     AccelKind, Antialiasing, Common, Growth, Huge, ListKind, MailboxKind, Overlap, Skip, Store,
     Switch, Walk,
@@ -60,7 +61,9 @@ pub fn wishes(options: &Common) -> Wishes {
         structure: match options.accel {
             AccelKind::Auto => None,
             // Trees are not the plan's; it only sees to the mailbox.
-            AccelKind::Naive | AccelKind::Tree | AccelKind::Sorted => Some(Structure::Naive),
+            AccelKind::Naive | AccelKind::Tree | AccelKind::Sorted | AccelKind::Bounded => {
+                Some(Structure::Naive)
+            }
             AccelKind::Grid => Some(Structure::Grid),
             AccelKind::Octree => Some(Structure::Octree),
             AccelKind::Bvh => Some(Structure::Bvh),
@@ -223,6 +226,7 @@ impl<'m, R: Real> Built<'m, R> {
         scene: &Scene<'_, R, S>,
         options: &Common,
         picture: Picture,
+        costs: &Costs,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         let clock = Clock::start();
@@ -245,7 +249,7 @@ impl<'m, R: Real> Built<'m, R> {
                 Ok(mailbox::Lists::new(shapes, options.shares_lists()))
             })
             .collect::<Result<_, OutOfArena>>()?;
-        let accel = structure::Structure::build(options, plan.accel, scene, arena)?;
+        let accel = structure::Structure::build(options, plan.accel, scene, costs, arena)?;
         Ok(Self { plan, accel, mailboxes, samplings, pass: clock.stop() })
     }
 

@@ -6,6 +6,7 @@
 //! and shares work among threads, [`commands`] trace, [`report`] says what came of it.
 
 pub mod commands;
+pub mod costs;
 pub mod description;
 pub mod efficiency;
 pub mod engine;

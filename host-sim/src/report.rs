@@ -10,6 +10,7 @@ use kibiray::num::Real;
 use kibiray::probe::Counters;
 use serde::Serialize;
 
+use crate::costs::{BoundedReport, Costs};
 use crate::structure::Structure;
 
 /// Everything that is reported.
@@ -95,6 +96,9 @@ pub struct AccelReport {
     /// Why an octree was not divided further.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_by: Option<&'static str>,
+    /// Which shapes have bounds of their own, and why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounded: Option<Vec<BoundedReport>>,
     /// Cells of a grid along each axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<[u32; 3]>,
@@ -122,11 +126,16 @@ fn lists<'l, I: Id + Eq + std::hash::Hash + 'l>(
 
 impl AccelReport {
     /// Of a structure, looked at from outside.
-    pub fn of<R: Real>(accel: &Structure<'_, R>, mailbox: &'static str) -> Self {
+    pub fn of<R: Real>(accel: &Structure<'_, R>, mailbox: &'static str, costs: &Costs) -> Self {
         let report = match accel {
             Structure::Planned(accel) => Self::planned(accel),
             Structure::Tree(tree) => Self::tree(tree),
             Structure::Sorted(list) => Self { kind: "sorted", ..Self::tree(list) },
+            Structure::Bounded(it) => Self {
+                kind: "bounded",
+                bounded: Some(costs.report(it.ids().iter().map(|id| *id as usize))),
+                ..Self::default()
+            },
         };
         Self { mailbox, ..report }
     }

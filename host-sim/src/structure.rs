@@ -1,12 +1,14 @@
 //! Any structure that `--accel` names.
 
 use kibiray::accel::tree::{self, AnyTree};
-use kibiray::accel::{Accel, Any, BuildError, Kind, Visitor};
+use kibiray::accel::{Accel, Any, Bounded, BuildError, Kind, Visitor};
 use kibiray::geom::Ray;
 use kibiray::memory::Arena;
 use kibiray::num::Real;
 use kibiray::scene::{Scene, Shapes};
+use kibiray::shape::Sphere;
 
+use crate::costs::Costs;
 use crate::options::{AccelKind, BoundKind, BuilderKind, Common, InsertionKind, Walk};
 
 /// A structure of the core, or one that its plan does not choose.
@@ -18,6 +20,8 @@ pub enum Structure<'m, R: Real> {
     Tree(AnyTree<'m, R>),
     /// A list of bounds.
     Sorted(AnyTree<'m, R>),
+    /// No structure but spheres around those shapes for which they pay.
+    Bounded(Bounded<'m, R, Sphere<R>, u32>),
 }
 
 impl<'m, R: Real> Structure<'m, R> {
@@ -29,6 +33,7 @@ impl<'m, R: Real> Structure<'m, R> {
         options: &Common,
         planned: Kind,
         scene: &Scene<'_, R, S>,
+        costs: &Costs,
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         Ok(match options.accel {
@@ -40,6 +45,10 @@ impl<'m, R: Real> Structure<'m, R> {
                 let settings =
                     tree::Settings { builder: tree::Builder::List, ..Default::default() };
                 Self::Sorted(AnyTree::build(bound(options), scene, settings, arena)?)
+            }
+            AccelKind::Bounded => {
+                let pays = |id, probability: R| costs.pays(id, probability.to_f64());
+                Self::Bounded(Bounded::build(scene, pays, arena)?)
             }
             _ => Self::Planned(Any::build(planned, scene, arena)?),
         })
@@ -83,6 +92,7 @@ impl<R: Real> Accel<R> for Structure<'_, R> {
         match self {
             Self::Planned(accel) => accel.walk(ray, visitor),
             Self::Tree(tree) | Self::Sorted(tree) => tree.walk(ray, visitor),
+            Self::Bounded(bounded) => bounded.walk(ray, visitor),
         }
     }
 }

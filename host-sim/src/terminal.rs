@@ -5,6 +5,7 @@ use std::path::Path;
 
 use kibiray::plan::Plan;
 
+use crate::costs::BoundedReport;
 use crate::image::HeatMap;
 use crate::report::{AccelReport, MemoryReport, Report, TimeReport};
 use crate::values::readable;
@@ -76,6 +77,14 @@ pub fn table(report: &Report, outcome: &Outcome<'_>) -> String {
 }
 
 fn structure(accel: &AccelReport) -> String {
+    if let Some(kinds) = &accel.bounded {
+        let kind = |it: &BoundedReport| {
+            let BoundedReport { kind, count, bounded, bound_ns, test_ns } = it;
+            format!("{kind} {bounded} of {count}, {bound_ns} ns to save {test_ns}")
+        };
+        let kinds: Vec<_> = kinds.iter().map(kind).collect();
+        return format!("spheres around shapes where they pay: {}", kinds.join("; "));
+    }
     let leaves = accel.leaves.unwrap_or(0);
     if let (Some(nodes), Some(mean), Some(level)) =
         (accel.interior_nodes, accel.shapes_per_leaf, accel.max_level)

@@ -88,6 +88,8 @@ fn every_structure_sees_the_same() {
                 assert_eq!(&found["rays"], expected, "{scene} {bound} {rest}");
             }
         }
+        let bounded = stats(&format!("{scene} --accel bounded"));
+        assert_eq!(&bounded["rays"], expected, "{scene} bounded");
     }
 }
 

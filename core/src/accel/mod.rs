@@ -13,6 +13,7 @@
 //! ray is a [`Mailbox`] that the caller lends.
 
 mod any;
+pub mod bounded;
 pub mod bvh;
 mod error;
 pub mod grid;
@@ -26,6 +27,7 @@ mod query;
 pub mod tree;
 
 pub use any::{Any, Kind};
+pub use bounded::Bounded;
 pub use bvh::Bvh;
 pub use error::BuildError;
 pub use grid::Grid;

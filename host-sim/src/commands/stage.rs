@@ -10,6 +10,7 @@ use kibiray::probe::Counters;
 use kibiray::scene::Scene;
 
 use super::Usage;
+use crate::costs::Costs;
 use crate::description::Description;
 use crate::description::load::load;
 use crate::engine::{Built, Memory, Pass, Picture};
@@ -70,8 +71,9 @@ pub(super) fn set<R: Real>(
 
     let mut memory = Memory::new(ram)?;
     let mut arena = memory.arena();
-    let built =
-        Built::new(&scene, options, picture, &mut arena).map_err(|error| build_error(&error))?;
+    let costs = Costs::of(options.num, &tables.kinds());
+    let built = Built::new(&scene, options, picture, &costs, &mut arena)
+        .map_err(|error| build_error(&error))?;
     let report = Report {
         scene: SceneReport {
             name: description.name.clone(),
@@ -81,7 +83,7 @@ pub(super) fn set<R: Real>(
             lights: tables.lights(),
         },
         num: number_name(options.num),
-        accel: AccelReport::of(&built.accel, built.mailbox_name()),
+        accel: AccelReport::of(&built.accel, built.mailbox_name(), &costs),
         memory: MemoryReport::of(&arena),
         rays: RaysReport::default(),
         work: WorkReport::default(),

@@ -33,6 +33,8 @@ pub enum AccelKind {
     Tree,
     #[value(help = "a list of bounds, those that a ray hits sorted; see --bound")]
     Sorted,
+    #[value(help = "none but spheres around those shapes for which they pay")]
+    Bounded,
 }
 
 /// `--bound`.
