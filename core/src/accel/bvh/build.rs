@@ -317,12 +317,14 @@ fn largest(groups: &[(Group, Bounds)]) -> Option<usize> {
 #[inline(never)]
 fn lay(groups: &Groups, nodes: &mut [Node], number: usize, mut next: usize) -> usize {
     let (mut boxes, mut ends, mut end) = ([Bounds::EMPTY; WIDTH], [0; WIDTH], 0);
+    let mut leaves = 0;
     let mut children = groups.iter();
     for (place, place_end) in boxes.iter_mut().zip(&mut ends) {
         if let Some((child, bounds)) = children.next() {
             *place = *bounds;
             if child.nodes == 0 {
                 end += child.count;
+                leaves += 1;
             } else if let Some(waiting) = nodes.get_mut(next) {
                 *waiting = child.wait(*bounds);
                 next += 1;
@@ -331,7 +333,7 @@ fn lay(groups: &Groups, nodes: &mut [Node], number: usize, mut next: usize) -> u
         *place_end = end as u8;
     }
     if let Some(node) = nodes.get_mut(number) {
-        *node = pack(boxes, ends);
+        *node = pack(boxes, leaves, ends);
     }
     next
 }

@@ -6,7 +6,8 @@
 //! "Memory-conserving bounding volume hierarchies with coherent raytracing", CGF 25(2) (2006).
 
 use super::units::{Bounds, Course};
-use crate::num::{FOURS, Progress, Real};
+use crate::num::{Progress, Real};
+use core::ops::Range;
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
@@ -19,15 +20,15 @@ const ROWS: usize = 8;
 /// |---|---|
 /// | 0 to 2 | least x, y, z of its box, in steps |
 /// | 3 to 5 | greatest x, y, z |
-/// | 6 | (of all children) the least corner in units, 2 bytes a coordinate; logarithms of the steps, 4 bits each |
+/// | 6 | (of all children) the least corner in units, 2 bytes a coordinate; logarithms of the steps and the number of leaves, 4 bits each |
 /// | 7 | where its ids end, counted from where the node's ids begin |
 ///
-/// Leaves come first. A child whose ids end where they begin is a node, or nothing when its box is
-/// empty.
+/// Leaves come first. Other children are nodes, or nothing when their box is empty.
 pub(super) type Node = [[u8; WIDTH]; ROWS];
 
-/// Packs a node: boxes of the children, rounded outwards to steps, and the ends of their ids.
-pub(super) fn pack(children: [Bounds; WIDTH], ends: [u8; WIDTH]) -> Node {
+/// Packs a node: boxes of the children, rounded outwards to steps; how many are leaves, and where
+/// their ids end.
+pub(super) fn pack(children: [Bounds; WIDTH], leaves: u8, ends: [u8; WIDTH]) -> Node {
     let whole = children.iter().fold(Bounds::EMPTY, |all, child| all.union(*child));
     let ([x, y, z], [hx, hy, hz]) = (whole.lo, whole.hi);
     let [cx, cy, cz] = [(x, hx), (y, hy), (z, hz)].map(|(lo, hi)| Scale::of(lo, hi));
@@ -40,20 +41,27 @@ pub(super) fn pack(children: [Bounds; WIDTH], ends: [u8; WIDTH]) -> Node {
         hi.map(|[x, _, _]| cx.up(x)),
         hi.map(|[_, y, _]| cy.up(y)),
         hi.map(|[_, _, z]| cz.up(z)),
-        [x0, x1, y0, y1, z0, z1, cx.shift | cy.shift << 4, cz.shift],
+        [x0, x1, y0, y1, z0, z1, cx.shift | cy.shift << 4, cz.shift | leaves << 4],
         ends,
     ]
 }
 
+/// How many children are leaves.
+#[inline(always)]
+pub(super) fn leaves_of(node: &Node) -> usize {
+    let [.., [.., last], _] = node;
+    usize::from(last >> 4)
+}
+
 /// Where the ids of a child begin and end, counted from where the node's begin.
 #[inline(always)]
-pub(super) fn ids_of(node: &Node, place: usize) -> (usize, usize) {
+pub(super) fn ids_of(node: &Node, place: usize) -> Range<usize> {
     const ENDS: usize = (ROWS - 1) * WIDTH;
     let bytes = node.as_flattened();
     let at = |at: usize| bytes.get(at % (ROWS * WIDTH)).copied().unwrap_or(0).into();
     // They begin where those of the one before it end. What that is not is read, too: no branch.
     let before = at(ENDS + place - 1);
-    (if place > 0 { before } else { 0 }, at(ENDS + place))
+    (if place > 0 { before } else { 0 })..at(ENDS + place)
 }
 
 /// Steps along an axis.
@@ -83,8 +91,8 @@ impl Scale {
     }
 }
 
-/// Hands over the places of those children of which a ray meets the box between two parameters, and
-/// where it enters it.
+/// Which children's boxes a ray meets between two parameters, a bit for each, and where it enters
+/// them.
 ///
 /// T. L. Kay and J. T. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986.
 #[inline(always)]
@@ -93,26 +101,24 @@ pub(super) fn hits<R: Real>(
     courses: &[Course<R>; 3],
     (start, limit): (R, R),
     near: &mut [R; WIDTH],
+) -> u32 {
+    // Every byte's lowest bit, side by side in the highest byte.
+    let bytes = clip(node, courses, start, limit, near);
+    (bytes.wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32
+}
+
+/// The same, one child after the other.
+#[inline(always)]
+pub(super) fn each_hit<R: Real>(
+    node: &Node,
+    courses: &[Course<R>; 3],
+    (start, limit): (R, R),
     mut hit: impl FnMut(usize, R),
 ) {
-    if FOURS {
-        let mut hits = clip(node, courses, start, limit, near);
-        // One place after the other: processors foresee that, and go on with the child before they
-        // know that it is hit. From the number of zeros they would have to wait for it.
-        let mut place = 0;
-        while hits != 0 {
-            if hits & 1 != 0 {
-                hit(place, near.get(place).copied().unwrap_or(R::ZERO));
-            }
-            place += 1;
-            hits >>= 8;
-        }
-    } else {
-        let slabs = Slabs::all(node, courses);
-        for place in 0..WIDTH {
-            if let Some(t) = clip_one(&slabs, place, start, limit) {
-                hit(place, t);
-            }
+    let slabs = Slabs::all(node, courses);
+    for place in 0..WIDTH {
+        if let Some(t) = clip_one(&slabs, place, start, limit) {
+            hit(place, t);
         }
     }
 }

@@ -2,12 +2,15 @@
 
 use super::LEVELS;
 use super::node::WIDTH;
+use super::wide::Met;
 use crate::num::Real;
 use heapless::Vec;
 
-/// A child still to be looked at: where the ray enters its box; its node times [`WIDTH`] plus its
-/// place there, or its own number if it can only be a node.
+/// A node still to be looked at: where the ray enters its box, and its number.
 pub(super) type Pending<R> = (R, u32);
+
+/// At most one of a level waits.
+pub(super) type Groups = Vec<Met, LEVELS>;
 
 /// Every level leaves all but one of a node's children behind.
 const MOST: usize = LEVELS * (WIDTH - 1);

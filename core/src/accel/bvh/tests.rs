@@ -8,6 +8,7 @@ use crate::memory::Arena;
 use crate::num::{Real, Vec3, Vector};
 use crate::scene::{Scene, Shapes};
 use crate::shape::Sphere;
+use node::WIDTH;
 use std::vec::Vec;
 use units::Bounds;
 
@@ -27,7 +28,7 @@ type UnitBox = ([u32; 3], [u32; 3]);
 fn unpacked(node: &Node) -> [UnitBox; WIDTH] {
     let [x0, x1, y0, y1, z0, z1, xy, z] = node[6];
     let origin = [[x0, x1], [y0, y1], [z0, z1]].map(u16::from_le_bytes).map(u32::from);
-    let shift = [xy & 15, xy >> 4, z];
+    let shift = [xy & 15, xy >> 4, z & 15];
     core::array::from_fn(|child| {
         let side = |row: usize, axis: usize| {
             origin[axis] + (u32::from(node[row + axis][child]) << shift[axis])
@@ -57,24 +58,26 @@ fn check<R: Real>(scene: &Scene<'_, R, &[Sphere<R>]>, nodes: usize) -> usize {
     while let Some((number, level, around)) = pending.pop() {
         nodes += 1;
         levels = levels.max(level);
-        for (place, bounds) in unpacked(&bvh.nodes[number]).into_iter().enumerate() {
+        let (node, [first, next]) = (&bvh.nodes[number], bvh.links[number]);
+        for (place, bounds) in unpacked(node).into_iter().enumerate() {
             if bounds.0[0] > bounds.1[0] {
                 continue;
             }
             let mut around = around.clone();
             around.push(bounds);
-            match bvh.child((number * WIDTH + place) as u32) {
-                Child::Node(number) => pending.push((number, level + 1, around)),
-                Child::Leaf(list) => {
-                    for id in list {
-                        met[usize::from(*id)] += 1;
-                        let Bounds { lo, hi } = boxes(id);
-                        for (from, to) in &around {
-                            for axis in 0..3 {
-                                assert!(from[axis] <= u32::from(lo[axis]));
-                                assert!(to[axis] >= u32::from(hi[axis]));
-                            }
-                        }
+            if place >= leaves_of(node) {
+                pending.push((usize::from(next) + place - WIDTH, level + 1, around));
+                continue;
+            }
+            let list = bvh.list(first, ids_of(node, place));
+            assert!(!list.is_empty());
+            for id in list {
+                met[usize::from(*id)] += 1;
+                let Bounds { lo, hi } = boxes(id);
+                for (from, to) in &around {
+                    for axis in 0..3 {
+                        assert!(from[axis] <= u32::from(lo[axis]));
+                        assert!(to[axis] >= u32::from(hi[axis]));
                     }
                 }
             }
