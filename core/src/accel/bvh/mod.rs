@@ -80,16 +80,22 @@ impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
         let first = first.get();
         self.ids.get(first + ids.start..first + ids.end).unwrap_or_default()
     }
-}
 
-impl<R: Real, I: Id> Accel<R> for Bvh<'_, R, I> {
-    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
-        match (FOURS, V::STOPS) {
+    /// Along a ray, the children of a node side by side or one after the other.
+    #[inline(always)]
+    fn walk_as<V: Visitor<R>>(&self, wide: bool, ray: &Ray<R>, visitor: &mut V) {
+        match (wide, V::STOPS) {
             (true, false) => self.to_nearest_wide(ray, visitor),
             (true, true) => self.to_any_wide(ray, visitor),
             (false, false) => self.to_nearest_narrow(ray, visitor),
             (false, true) => self.to_any_narrow(ray, visitor),
         }
+    }
+}
+
+impl<R: Real, I: Id> Accel<R> for Bvh<'_, R, I> {
+    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        self.walk_as(FOURS, ray, visitor);
     }
 }
 

@@ -21,6 +21,15 @@ fn scattered(i: f64) -> [f64; 3] {
     [(i * 0.37).sin() * 9.0, (i * 0.73).cos() * 5.0, i * 0.01]
 }
 
+/// The walk that processors of the other kind take.
+struct Other<'b, 'm, R: Real>(&'b Bvh<'m, R, u16>);
+
+impl<R: Real> Accel<R> for Other<'_, '_, R> {
+    fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+        self.0.walk_as(!FOURS, ray, visitor);
+    }
+}
+
 /// Least and greatest corner, in units.
 type UnitBox = ([u32; 3], [u32; 3]);
 
@@ -102,8 +111,11 @@ fn check<R: Real>(scene: &Scene<'_, R, &[Sphere<R>]>, nodes: usize) -> usize {
         let expected = naive.nearest(scene, &ray, Interval::RAY, &mut Off, &mut ());
         let found = bvh.nearest(scene, &ray, Interval::RAY, &mut Off, &mut ());
         assert_eq!(found, expected, "{ray:?}");
+        let found = Other(&bvh).nearest(scene, &ray, Interval::RAY, &mut Off, &mut ());
+        assert_eq!(found, expected, "{ray:?}");
         let any = bvh.occluded(scene, &ray, Interval::RAY, &mut Off, &mut ());
         assert_eq!(any, expected.is_some(), "{ray:?}");
+        assert_eq!(any, Other(&bvh).occluded(scene, &ray, Interval::RAY, &mut Off, &mut ()));
         hits += usize::from(any);
     }
     hits
