@@ -2,7 +2,7 @@
 
 use super::LEVELS;
 use super::node::WIDTH;
-use super::wide::Met;
+use super::wide::Group;
 use crate::num::Real;
 use heapless::Vec;
 
@@ -10,7 +10,7 @@ use heapless::Vec;
 pub(super) type Pending<R> = (R, u32);
 
 /// At most one of a level waits.
-pub(super) type Groups = Vec<Met, LEVELS>;
+pub(super) type Groups = Vec<Group, LEVELS>;
 
 /// Every level leaves all but one of a node's children behind.
 const MOST: usize = LEVELS * (WIDTH - 1);

@@ -5,7 +5,7 @@
 //! shapes are tested than from near to far, but nothing has to be kept of them, and what is kept is
 //! a node, always. As compressed wide trees are walked by T. Ylitie, T. Karras, S. Laine, HPG 2017.
 
-use super::node::{WIDTH, hits, ids_of, leaves_of};
+use super::node::{Node, WIDTH, hits, ids_of, leaves_of};
 use super::stack::{Groups, Pending, Stack};
 use super::units::Course;
 use super::{Bvh, visit};
@@ -14,8 +14,18 @@ use crate::geom::Ray;
 use crate::num::Real;
 use crate::probe::Probe;
 
-/// Children of a node that are nodes, and met by a ray.
-pub(super) struct Met {
+/// Children of a node that are met by a ray.
+struct Met<'b, I> {
+    node: &'b Node,
+    /// Where its ids begin.
+    first: I,
+    /// A bit for each place.
+    leaves: u32,
+    group: Group,
+}
+
+/// Nodes with the same parent.
+pub(super) struct Group {
     /// Number of the child in place 0, if that were a node.
     base: usize,
     /// A bit for each place.
@@ -23,7 +33,7 @@ pub(super) struct Met {
 }
 
 impl<R: Real, I: Id> Bvh<'_, R, I> {
-    /// Looks at a node: hands over the leaves that a ray meets, and gives the nodes.
+    /// Looks at a node.
     #[inline(always)]
     fn look<V: Visitor<R>>(
         &self,
@@ -31,22 +41,31 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
         courses: &[Course<R>; 3],
         near: &mut [R; WIDTH],
         visitor: &mut V,
-    ) -> Option<Met> {
+    ) -> Option<Met<'_, I>> {
         let (node, [first, next]) = (self.nodes.get(number)?, self.links.get(number)?);
         visitor.probe().step();
         let hits = hits(node, courses, (visitor.start(), visitor.limit()), near);
-        let leaves = leaves_of(node);
-        for place in ones(hits & !(u32::MAX << leaves)) {
-            // The limit may have come nearer since.
-            if near.get(place).is_some_and(|t| *t <= visitor.limit()) {
-                visit(self.list(*first, ids_of(node, place)), visitor);
-            }
-        }
-        let base = next.get().wrapping_sub(WIDTH);
-        Some(Met { base, places: hits & u32::MAX << leaves })
+        let nodes = u32::MAX << leaves_of(node);
+        let group = Group { base: next.get().wrapping_sub(WIDTH), places: hits & nodes };
+        Some(Met { node, first: *first, leaves: hits & !nodes, group })
     }
 
-    /// From near to far.
+    /// Hands over a leaf, unless the limit has come nearer since.
+    #[inline(always)]
+    fn hand_over<V: Visitor<R>>(
+        &self,
+        met: &Met<'_, I>,
+        place: usize,
+        near: &[R; WIDTH],
+        visitor: &mut V,
+    ) {
+        if near.get(place).is_some_and(|t| *t <= visitor.limit()) {
+            visit(self.list(met.first, ids_of(met.node, place)), visitor);
+        }
+    }
+
+    /// From near to far. Places are looked at one after the other: for a ray like the last ones
+    /// processors foresee what comes, and go on with a child before they know that it is met.
     #[inline(always)]
     pub(super) fn to_nearest_wide<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let courses = self.units.courses(ray);
@@ -54,47 +73,38 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
         let mut number = 0;
         // Every node is met once at most.
         for _ in 0..self.nodes.len() {
-            let Some(Met { base, places }) = self.look(number, &courses, &mut near, visitor) else {
-                return;
-            };
-            let child = |place: usize| -> Pending<R> {
-                let t = near.get(place).copied().unwrap_or(R::ZERO);
-                (t, base.wrapping_add(place) as u32)
-            };
+            let Some(met) = self.look(number, &courses, &mut near, visitor) else { return };
+            let (mut place, mut rest) = (0, met.leaves);
+            while rest != 0 {
+                if rest & 1 != 0 {
+                    self.hand_over(&met, place, &near, visitor);
+                }
+                place += 1;
+                rest >>= 1;
+            }
             // The nearest one does not go through memory: most often it is the only one.
-            let mut nearest = None;
-            let without_first = places & places.wrapping_sub(1);
-            if without_first & without_first.wrapping_sub(1) == 0 {
-                // One or two: no branches but for their number.
-                let mut children = ones(places).map(child);
-                nearest = children.next();
-                if let (Some(a), Some(b)) = (nearest, children.next()) {
-                    let (near, far) = in_order(a, b);
-                    nearest = Some(near);
-                    stack.push(far);
+            let mut nearest: Option<Pending<R>> = None;
+            let below = stack.len();
+            let Group { base, places } = met.group;
+            let (mut place, mut rest) = (0, places);
+            while rest != 0 {
+                if rest & 1 != 0 {
+                    let t = near.get(place).copied().unwrap_or(R::ZERO);
+                    let child = (t, base.wrapping_add(place) as u32);
+                    nearest = Some(match nearest {
+                        Some(other) if other.0 > t => {
+                            stack.insert(below, other);
+                            child
+                        }
+                        Some(other) => {
+                            stack.insert(below, child);
+                            other
+                        }
+                        None => child,
+                    });
                 }
-            } else {
-                // Place after place: processors foresee what comes, and go on with the nearest.
-                let below = stack.len();
-                let (mut place, mut rest) = (0, places);
-                while rest != 0 {
-                    if rest & 1 != 0 {
-                        let child = child(place);
-                        nearest = Some(match nearest {
-                            Some(other) if other.0 > child.0 => {
-                                stack.insert(below, other);
-                                child
-                            }
-                            Some(other) => {
-                                stack.insert(below, child);
-                                other
-                            }
-                            None => child,
-                        });
-                    }
-                    place += 1;
-                    rest >>= 1;
-                }
+                place += 1;
+                rest >>= 1;
             }
             number = loop {
                 let Some((t, next)) = nearest.or_else(|| stack.pop()) else { return };
@@ -107,7 +117,8 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
         }
     }
 
-    /// In any order: of a node's children the last one first.
+    /// In any order: of a node's children the last one first. Rays to lights differ more than those
+    /// to the nearest: places are jumped to, without branches that could not be foreseen.
     #[inline(always)]
     pub(super) fn to_any_wide<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let courses = self.units.courses(ray);
@@ -115,36 +126,23 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
         let mut number = 0;
         for _ in 0..self.nodes.len() {
             let Some(met) = self.look(number, &courses, &mut near, visitor) else { return };
+            let mut leaves = met.leaves;
+            while leaves != 0 {
+                self.hand_over(&met, leaves.trailing_zeros() as usize, &near, visitor);
+                leaves &= leaves - 1;
+            }
             // Otherwise something has been found.
             if !(visitor.start() <= visitor.limit()) {
                 return;
             }
-            let group = if met.places != 0 { Some(met) } else { groups.pop() };
-            let Some(Met { base, places }) = group else { return };
+            let group = if met.group.places != 0 { Some(met.group) } else { groups.pop() };
+            let Some(Group { base, places }) = group else { return };
             let place = places.ilog2();
             number = base.wrapping_add(place as usize);
             let places = places ^ 1 << place;
             if places != 0 {
-                let _ = groups.push(Met { base, places });
+                let _ = groups.push(Group { base, places });
             }
         }
     }
-}
-
-/// The nearer one of two first.
-#[inline(always)]
-fn in_order<R: Real>(a: Pending<R>, b: Pending<R>) -> (Pending<R>, Pending<R>) {
-    if a.0 <= b.0 { (a, b) } else { (b, a) }
-}
-
-/// The places of ones, from the lowest.
-#[inline(always)]
-fn ones(mut bits: u32) -> impl Iterator<Item = usize> {
-    core::iter::from_fn(move || {
-        let place = bits.trailing_zeros() as usize;
-        (bits != 0).then(|| {
-            bits &= bits - 1;
-            place
-        })
-    })
 }
