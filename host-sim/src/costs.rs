@@ -1,4 +1,5 @@
-//! What tests take on this host, as `host-sim bounds` measures: which shapes get a bound.
+//! What tests take, for the choice of shapes that get a bound: rounded from what `host-sim bounds` told
+//! on one machine. On others ratios count, which differ less.
 
 use kibiray::bound::pays;
 use serde::Serialize;

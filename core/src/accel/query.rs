@@ -149,7 +149,8 @@ fn search<R: Real, S: Shapes<R>, A: Accel<R> + ?Sized, G: Goal<R>>(
 }
 
 /// The ray as it is traced, its interval with the greatest number that belongs to it, and whether it
-/// comes near the bounded shapes, if that is asked. A copy: that stays in registers, what a pointer leads to would not.
+/// comes near the bounded shapes, if that is asked. A copy: that stays in registers, what a pointer
+/// leads to would not.
 #[inline(always)]
 fn framed<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,

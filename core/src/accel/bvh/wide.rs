@@ -4,6 +4,7 @@
 //! Leaves are handed over as soon as their node is looked at, before its other children: a few more
 //! shapes are tested than from near to far, but nothing has to be kept of them, and what is kept is
 //! a node, always. As compressed wide trees are walked by T. Ylitie, T. Karras, S. Laine, HPG 2017.
+//! On the stack: 800 bytes in `f32` for the nearest hit, a group a level for any.
 
 use super::node::{Node, WIDTH, hits, ids_of, leaves_of};
 use super::stack::{Groups, Pending, Stack};
