@@ -86,11 +86,8 @@ pub fn run(
                 "scene": mesh.name, "peer": name, "budget": budget, "error": why,
             })),
         };
-        for (name, structure, budget, bytes) in ours::entries(mesh.len()) {
-            if !runs(&name) {
-                continue;
-            }
-            enter(&name, budget, ours::build(scene, structure, bytes));
+        for choice in ours::choices(mesh.len()).iter().filter(|choice| runs(choice.name)) {
+            enter(choice.name, choice.budget, ours::build(scene, choice));
         }
         for (name, build) in peer::OTHERS.into_iter().filter(|peer| runs(peer.0)) {
             enter(name, "", build(&mesh));

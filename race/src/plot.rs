@@ -143,6 +143,7 @@ fn colour(name: &str) -> PaletteColor<Palette99> {
         "obvhs 0.4 CWBVH",
         "parry3d 0.31",
         "bvh 0.13",
+        "kibiray bvh for incoherent rays",
     ];
     Palette99::pick(known.iter().position(|k| *k == name).unwrap_or(usize::from(name == "tetra")))
 }

@@ -59,7 +59,8 @@ fn queries(lines: &[Value], out: &mut String) {
     *out += "Speed in million rays a second of processor time; in parentheses tests and, where they \
              can be counted, steps a ray. Bytes a triangle. Wrong: of the sampled answers those that \
              are not what f64 says, edges excepted; leaks: of the sampled rays at edges and corners \
-             those that went through the closed surface.\n";
+             those that went through the closed surface. What is told that rays are \
+             incoherent is told so of all.\n";
     for scene in distinct(lines, |line| text(line, "scene")) {
         let here: Vec<Value> =
             lines.iter().filter(|line| line["scene"] == scene.as_str()).cloned().collect();

@@ -103,6 +103,16 @@ impl<'m, R: Real> Any<'m, R> {
         })
     }
 
+    /// The same structure for rays that differ from one another: see [`Bvh::for_incoherent_rays`].
+    #[must_use]
+    pub fn for_incoherent_rays(self) -> Self {
+        match self {
+            Self::Bvh(bvh) => Self::Bvh(bvh.for_incoherent_rays()),
+            Self::LargeBvh(bvh) => Self::LargeBvh(bvh.for_incoherent_rays()),
+            other => other,
+        }
+    }
+
     /// The bytes that [`Any::build`] takes; for an octree those without shortage, as it can do with
     /// less.
     ///

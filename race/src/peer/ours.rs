@@ -28,8 +28,18 @@ pub fn scene(mesh: &Mesh) -> Result<Triangles, String> {
     Scene::new(&*triangles.leak()).map_err(|error| error.to_string())
 }
 
-/// Name, budget and how to build, for a mesh of so many triangles.
-pub fn entries(triangles: usize) -> Vec<(String, Structure, &'static str, usize)> {
+/// A structure in a budget.
+pub struct Choice {
+    pub name: &'static str,
+    structure: Structure,
+    /// Whether it is told that rays differ from one another.
+    incoherent: bool,
+    pub budget: &'static str,
+    bytes: usize,
+}
+
+/// What races, for a mesh of so many triangles.
+pub fn choices(triangles: usize) -> Vec<Choice> {
     let mut budgets = [
         ("12 B/tri", 12 * triangles),
         ("24 B/tri", 24 * triangles),
@@ -38,16 +48,17 @@ pub fn entries(triangles: usize) -> Vec<(String, Structure, &'static str, usize)
     ];
     budgets.sort_by_key(|(_, bytes)| *bytes);
     let structures = [
-        ("naive", Structure::Naive),
-        ("grid", Structure::Grid),
-        ("octree", Structure::Octree),
-        ("bvh", Structure::Bvh),
+        ("kibiray naive", Structure::Naive, false),
+        ("kibiray grid", Structure::Grid, false),
+        ("kibiray octree", Structure::Octree, false),
+        ("kibiray bvh", Structure::Bvh, false),
+        ("kibiray bvh for incoherent rays", Structure::Bvh, true),
     ];
     let mut all = vec![];
-    for (name, structure) in structures {
+    for (name, structure, incoherent) in structures {
         for (budget, bytes) in budgets {
             if structure != Structure::Naive || triangles <= NAIVE {
-                all.push((format!("kibiray {name}"), structure, budget, bytes));
+                all.push(Choice { name, structure, incoherent, budget, bytes });
             }
         }
     }
@@ -55,13 +66,14 @@ pub fn entries(triangles: usize) -> Vec<(String, Structure, &'static str, usize)
 }
 
 /// Plans and builds within a budget.
-pub fn build(scene: Triangles, structure: Structure, bytes: usize) -> Result<Built, String> {
+pub fn build(scene: Triangles, choice: &Choice) -> Result<Built, String> {
     // Pages that nobody writes to are never there.
-    let memory: &'static mut [u64] = vec![0; bytes / 8].leak();
-    let wishes = Wishes { structure: Some(structure), ..Wishes::default() };
+    let memory: &'static mut [u64] = vec![0; choice.bytes / 8].leak();
+    let wishes = Wishes { structure: Some(choice.structure), ..Wishes::default() };
     let (first, build) = fastest(|| make(&scene, &wishes, memory).map(|_| ()));
     first?;
     let (accel, mailbox, arena) = make(&scene, &wishes, memory)?;
+    let accel = if choice.incoherent { accel.for_incoherent_rays() } else { accel };
     let (bytes_kept, bytes_peak) = (arena.used(), arena.high_water());
     let batch = match accel {
         Any::Naive(accel) => ready(scene, accel, mailbox),

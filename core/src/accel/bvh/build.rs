@@ -46,7 +46,7 @@ impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
         }
         let units = Units::of(scene);
         let levels = Builder { scene, units, ids: &mut *ids }.grow(nodes, links);
-        Ok(Self { units, levels, nodes, links, ids })
+        Ok(Self { units, levels, incoherent: false, nodes, links, ids })
     }
 }
 

@@ -48,6 +48,8 @@ const LEVELS: usize = 14;
 pub struct Bvh<'m, R: Real, I> {
     units: Units<R>,
     levels: usize,
+    /// Whether rays are expected to differ from one another.
+    incoherent: bool,
     nodes: &'m [Node],
     /// For each node where its ids begin, and the number of its first child that is a node plus
     /// [`WIDTH`](node::WIDTH) less the number of its leaves.
@@ -56,7 +58,26 @@ pub struct Bvh<'m, R: Real, I> {
     ids: &'m [I],
 }
 
+/// How the children of a node are looked at.
+#[derive(Clone, Copy)]
+enum Way {
+    /// One after the other.
+    Narrow,
+    /// Side by side; those that are met are found by looking at all places.
+    Wide,
+    /// Side by side; those that are met are jumped to.
+    WideJumping,
+}
+
 impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
+    /// The same hierarchy for rays that differ from one another, as those between random points do:
+    /// the hits are the same. On x86-64 to the nearest hit takes such rays some 10 % less time, and
+    /// rays like those before them, as through neighbouring pixels, some 15 % more.
+    #[must_use]
+    pub fn for_incoherent_rays(&self) -> Self {
+        Self { incoherent: true, ..*self }
+    }
+
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.nodes.len()
@@ -81,21 +102,26 @@ impl<'m, R: Real, I: Id> Bvh<'m, R, I> {
         self.ids.get(first + ids.start..first + ids.end).unwrap_or_default()
     }
 
-    /// Along a ray, the children of a node side by side or one after the other.
     #[inline(always)]
-    fn walk_as<V: Visitor<R>>(&self, wide: bool, ray: &Ray<R>, visitor: &mut V) {
-        match (wide, V::STOPS) {
-            (true, false) => self.to_nearest_wide(ray, visitor),
-            (true, true) => self.to_any_wide(ray, visitor),
-            (false, false) => self.to_nearest_narrow(ray, visitor),
-            (false, true) => self.to_any_narrow(ray, visitor),
+    fn walk_as<V: Visitor<R>>(&self, way: Way, ray: &Ray<R>, visitor: &mut V) {
+        match (way, V::STOPS) {
+            (Way::Narrow, false) => self.to_nearest_narrow(ray, visitor),
+            (Way::Narrow, true) => self.to_any_narrow(ray, visitor),
+            (Way::Wide, false) => self.to_nearest_wide::<false, V>(ray, visitor),
+            (Way::WideJumping, false) => self.to_nearest_wide::<true, V>(ray, visitor),
+            (Way::Wide | Way::WideJumping, true) => self.to_any_wide(ray, visitor),
         }
     }
 }
 
 impl<R: Real, I: Id> Accel<R> for Bvh<'_, R, I> {
     fn walk<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
-        self.walk_as(FOURS, ray, visitor);
+        let way = match (FOURS, self.incoherent) {
+            (false, _) => Way::Narrow,
+            (true, false) => Way::Wide,
+            (true, true) => Way::WideJumping,
+        };
+        self.walk_as(way, ray, visitor);
     }
 }
 

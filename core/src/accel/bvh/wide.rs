@@ -65,35 +65,41 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
         }
     }
 
-    /// From near to far. Places are looked at one after the other: for a ray like the last ones
-    /// processors foresee what comes, and go on with a child before they know that it is met.
+    /// From near to far.
     #[inline(always)]
-    pub(super) fn to_nearest_wide<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
+    pub(super) fn to_nearest_wide<const JUMPS: bool, V: Visitor<R>>(
+        &self,
+        ray: &Ray<R>,
+        visitor: &mut V,
+    ) {
         let courses = self.units.courses(ray);
         let (mut stack, mut near) = (Stack::new(), [R::ZERO; WIDTH]);
         let mut number = 0;
         // Every node is met once at most.
         for _ in 0..self.nodes.len() {
             let Some(met) = self.look(number, &courses, &mut near, visitor) else { return };
-            let (mut place, mut rest) = (0, met.leaves);
-            while rest != 0 {
-                if rest & 1 != 0 {
-                    self.hand_over(&met, place, &near, visitor);
-                }
-                place += 1;
-                rest >>= 1;
+            let mut leaves = Places::<JUMPS>::of(met.leaves);
+            while let Some(place) = leaves.next() {
+                self.hand_over(&met, place, &near, visitor);
             }
-            // The nearest one does not go through memory: most often it is the only one.
-            let mut nearest: Option<Pending<R>> = None;
-            let below = stack.len();
             let Group { base, places } = met.group;
-            let (mut place, mut rest) = (0, places);
-            while rest != 0 {
-                if rest & 1 != 0 {
-                    let t = near.get(place).copied().unwrap_or(R::ZERO);
-                    let child = (t, base.wrapping_add(place) as u32);
+            let child = |place: usize| -> Pending<R> {
+                (near.get(place).copied().unwrap_or(R::ZERO), base.wrapping_add(place) as u32)
+            };
+            // The nearest one does not go through memory: most often it is the only one.
+            let mut nearest = None;
+            let mut places = Places::<JUMPS>::of(places);
+            if let Some([a, b]) = places.two() {
+                let (a, b) = (child(a), child(b));
+                let in_order = a.0 <= b.0;
+                nearest = Some(if in_order { a } else { b });
+                stack.push(if in_order { b } else { a });
+            } else {
+                let below = stack.len();
+                while let Some(place) = places.next() {
+                    let child = child(place);
                     nearest = Some(match nearest {
-                        Some(other) if other.0 > t => {
+                        Some(other) if other.0 > child.0 => {
                             stack.insert(below, other);
                             child
                         }
@@ -104,8 +110,6 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
                         None => child,
                     });
                 }
-                place += 1;
-                rest >>= 1;
             }
             number = loop {
                 let Some((t, next)) = nearest.or_else(|| stack.pop()) else { return };
@@ -119,7 +123,7 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
     }
 
     /// In any order: of a node's children the last one first. Rays to lights differ more than those
-    /// to the nearest: places are jumped to, without branches that could not be foreseen.
+    /// to the nearest: places are jumped to.
     #[inline(always)]
     pub(super) fn to_any_wide<V: Visitor<R>>(&self, ray: &Ray<R>, visitor: &mut V) {
         let courses = self.units.courses(ray);
@@ -127,10 +131,9 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
         let mut number = 0;
         for _ in 0..self.nodes.len() {
             let Some(met) = self.look(number, &courses, &mut near, visitor) else { return };
-            let mut leaves = met.leaves;
-            while leaves != 0 {
-                self.hand_over(&met, leaves.trailing_zeros() as usize, &near, visitor);
-                leaves &= leaves - 1;
+            let mut leaves = Places::<true>::of(met.leaves);
+            while let Some(place) = leaves.next() {
+                self.hand_over(&met, place, &near, visitor);
             }
             // Otherwise something has been found.
             if !(visitor.start() <= visitor.limit()) {
@@ -145,5 +148,45 @@ impl<R: Real, I: Id> Bvh<'_, R, I> {
                 let _ = groups.push(Group { base, places });
             }
         }
+    }
+}
+
+/// The places of ones, from the lowest. They are looked at one after the other: for a ray like the
+/// last ones processors foresee what comes, and go on with a child before they know that it is met.
+/// Or they are jumped to, with fewer branches that could not be foreseen.
+struct Places<const JUMPS: bool> {
+    place: usize,
+    rest: u32,
+}
+
+impl<const JUMPS: bool> Places<JUMPS> {
+    #[inline(always)]
+    fn of(bits: u32) -> Self {
+        Self { place: 0, rest: bits }
+    }
+
+    /// If there are two, and none is looked for.
+    #[inline(always)]
+    fn two(&self) -> Option<[usize; 2]> {
+        let ends = || [self.rest.trailing_zeros() as usize, self.rest.ilog2() as usize];
+        (JUMPS && self.rest.count_ones() == 2).then(ends)
+    }
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        if JUMPS {
+            let place = self.rest.trailing_zeros() as usize;
+            self.rest &= self.rest.wrapping_sub(1);
+            return (place < WIDTH).then_some(place);
+        }
+        while self.rest != 0 {
+            let (place, met) = (self.place, self.rest & 1 != 0);
+            self.place += 1;
+            self.rest >>= 1;
+            if met {
+                return Some(place);
+            }
+        }
+        None
     }
 }
