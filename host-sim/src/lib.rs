@@ -23,3 +23,4 @@ pub mod tables;
 pub mod terminal;
 pub mod values;
 pub mod view;
+pub mod wasm;

@@ -7,9 +7,11 @@ use anyhow::Context;
 use tiny_http::{Header, Method, Request, Response, Server};
 
 use crate::options::Serve;
+use crate::wasm;
 
 /// How the module is built, for those who have not.
 const BUILD: &str = "cargo build --release --manifest-path tests/wasm/page/Cargo.toml \
+                     --config tests/wasm/.cargo/config.toml \
                      --target wasm32-unknown-unknown --target-dir target";
 
 /// Nothing from elsewhere, and no code but the page's own.
@@ -39,13 +41,14 @@ static ICON: File<'static> = page!("icon.svg", "image/svg+xml");
 
 /// Serves until the process is ended.
 pub(super) fn run(options: &Serve) -> anyhow::Result<()> {
-    let wasm = module(&options.wasm)?;
+    let (wasm, how) = module(&options.wasm)?;
     let address = format!("127.0.0.1:{}", options.port);
     let server = Server::http(&address)
         .map_err(|error| anyhow::anyhow!("cannot listen on {address}: {error}"))?;
     let address = server.server_addr();
     let mut out = io::stdout().lock();
     writeln!(out, "http://{address}/ shows the page; Ctrl-C ends")?;
+    writeln!(out, "its module: {} bytes{how}", wasm.len())?;
     out.flush()?;
     let mut files = PAGE.to_vec();
     files.extend([ICON, ("/kibiray.wasm", "application/wasm", &wasm)]);
@@ -56,12 +59,16 @@ pub(super) fn run(options: &Serve) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn module(path: &Path) -> anyhow::Result<Vec<u8>> {
+/// The module, and what there is to say of it.
+fn module(path: &Path) -> anyhow::Result<(Vec<u8>, String)> {
     let bytes = std::fs::read(path).with_context(|| {
         format!("cannot read the module {}, which this builds: {BUILD}", super::shown(path))
     })?;
     anyhow::ensure!(bytes.starts_with(b"\0asm"), "{} is no WebAssembly", super::shown(path));
-    Ok(bytes)
+    Ok(match wasm::optimized(path)? {
+        Some(smaller) => (smaller, format!(", {} before {}", bytes.len(), wasm::OPTIMIZER)),
+        None => (bytes, format!(", as built; {} would make it smaller", wasm::OPTIMIZER)),
+    })
 }
 
 fn answer(request: Request, files: &[File<'_>]) -> io::Result<()> {

@@ -288,7 +288,7 @@ pub struct Serve {
     /// Port on this machine, which nobody else can reach; 0: any that is free
     #[arg(long, value_name = "N", default_value_t = 8080)]
     pub port: u16,
-    /// The module that the page runs
+    /// The module that the page runs; made smaller by Binaryen's wasm-opt where that is in the search path
     #[arg(long, value_name = "FILE")]
     #[arg(default_value = "target/wasm32-unknown-unknown/release/kibiray_page.wasm")]
     pub wasm: PathBuf,

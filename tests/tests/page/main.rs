@@ -8,6 +8,8 @@ mod browser;
 #[path = "../targets/cross.rs"]
 mod cross;
 mod host;
+#[path = "../targets/module.rs"]
+mod module;
 mod modules;
 #[allow(dead_code)]
 #[path = "../targets/run.rs"]

@@ -37,7 +37,7 @@ impl Process {
     }
 }
 
-/// Serves the page with a module. Gives its address.
+/// Serves the page with a module as built, which is made smaller here. Gives its address.
 pub(crate) fn serve(module: &Path) -> Result<(Process, String)> {
     let mut command = Command::new(std::env::current_exe()?);
     command.env(AS_COMMAND, "1").args(["serve", "--port", "0", "--wasm"]).arg(module);

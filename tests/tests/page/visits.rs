@@ -1,7 +1,7 @@
 //! What visitors of the page do.
 
 use crate::browser::Browser;
-use crate::{cross, host, modules, server, tools};
+use crate::{cross, host, module, server, tools};
 use anyhow::{Context, Result, ensure};
 use kibiray_gallery::EXHIBITS;
 use std::fs;
@@ -18,7 +18,7 @@ const TAB: char = '\u{e004}';
 
 /// What these tests need.
 pub(crate) struct Tools {
-    cross: cross::Tools,
+    module: module::Tools,
     chromium: PathBuf,
     driver: PathBuf,
 }
@@ -28,7 +28,7 @@ impl Tools {
         Ok(Self {
             chromium: tools::find("chromium")?,
             driver: tools::find("chromedriver")?,
-            cross: cross::Tools::find("wasm-ld")?,
+            module: module::Tools::find()?,
         })
     }
 }
@@ -46,8 +46,8 @@ pub(crate) static ALL: [(&str, Visit); 5] = [
 
 /// Serves the page, opens it, and ends with a look at the console.
 pub(crate) fn make(tools: &Tools, visit: Visit) -> Result<()> {
-    let module = modules::build(&tools.cross, "page")?;
-    let (_server, address) = server::serve(&module)?;
+    let module = module::make(&tools.module, "wasm/page")?;
+    let (_server, address) = server::serve(&module.built)?;
     let browser = Browser::start(&tools.driver, &tools.chromium, (1280, 960))?;
     browser.open(&address)?;
     visit(&browser)?;

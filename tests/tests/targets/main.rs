@@ -11,6 +11,7 @@ mod goldens;
 mod host;
 mod image;
 mod machine;
+mod module;
 mod run;
 mod tools;
 mod wasm;

@@ -2,7 +2,7 @@
 
 use crate::goldens::Row;
 use crate::machine::program;
-use crate::{cross, host, run, tools};
+use crate::{cross, host, module, run, tools};
 use anyhow::{Result, ensure};
 use kibiray_scenes::{Structure, Subject};
 use serde::Deserialize;
@@ -10,18 +10,16 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-const TARGET: &str = "wasm32-unknown-unknown";
-
 /// What a run needs.
 #[derive(Debug)]
 pub(crate) struct Tools {
-    cross: cross::Tools,
+    module: module::Tools,
     node: PathBuf,
 }
 
 /// Finds them.
 pub(crate) fn tools() -> Result<Tools, String> {
-    Ok(Tools { node: tools::find("node")?, cross: cross::Tools::find("wasm-ld")? })
+    Ok(Tools { node: tools::find("node")?, module: module::Tools::find()? })
 }
 
 /// By which number the module knows a subject: its place among [`kibiray_scenes::all`].
@@ -41,19 +39,18 @@ struct Report {
 
 /// How large the modules are: of all scenes, the smallest one, and that of the page.
 pub(crate) fn sizes(tools: &Tools) -> Result<()> {
-    for (package, module) in [("wasm", "wasm"), ("wasm/least", "least"), ("wasm/page", "page")] {
-        let (built, _guard) = cross::build(&tools.cross, package, TARGET, "")?;
-        let bytes = fs::metadata(built.join(format!("kibiray_{module}.wasm")))?.len();
-        println!("{module} module: {bytes} bytes");
-        Row::new(&format!("module_{module}"), "-", "wasm").with("flash", bytes).check()?;
+    for (package, name) in [("wasm", "wasm"), ("wasm/least", "least"), ("wasm/page", "page")] {
+        let module = module::make(&tools.module, package)?;
+        let [built, bytes] = [fs::metadata(module.built)?.len(), fs::metadata(module.small)?.len()];
+        println!("{name} module: {bytes} bytes; as built {built}");
+        Row::new(&format!("module_{name}"), "-", "wasm").with("flash", bytes).check()?;
     }
     Ok(())
 }
 
 /// Builds the module, runs it, and compares.
 pub(crate) fn run<S: Subject>(tools: &Tools, Number(number): Number) -> Result<()> {
-    let (built, _guard) = cross::build(&tools.cross, "wasm", TARGET, "")?;
-    let module = built.join("kibiray_wasm.wasm");
+    let module = module::make(&tools.module, "wasm")?.small;
     let mut command = Command::new(&tools.node);
     command.arg(cross::source("wasm").join("run.mjs")).arg(module).arg(number.to_string());
     let (line, report) = run::report::<Report>(&mut command)?;
