@@ -39,7 +39,11 @@ impl<'m, R: Real> Structure<'m, R> {
         Ok(match options.accel {
             AccelKind::Tree => {
                 let (bound, settings) = (bound(options), tree_settings(options));
-                Self::Tree(AnyTree::build(bound, scene, settings, arena)?)
+                let mut tree = AnyTree::build(bound, scene, settings, arena)?;
+                if let Some(most) = options.leaf_bounds {
+                    tree.keep_paying(|_, probability: R| probability.to_f64() <= most);
+                }
+                Self::Tree(tree)
             }
             AccelKind::Sorted => {
                 let settings =

@@ -6,8 +6,9 @@
 //! the whole scene without a tree, which would leave the root's tests by these out (one in eight on
 //! `tree`); in fixed point they do not, so counts are made there.
 //!
-//! Fewer tests than published are due to the order, nearest first: as the tree is stored, it takes
-//! up to a fifth more. Shapes are tested a third as often as published, for each has a box of its own.
+//! Nearest first, and with a box around every shape, fewer tests are made than published, above all of
+//! shapes. What he did comes out when trees are walked as they are stored, and shapes have boxes only
+//! where the times pay that he published with the counts: 26.71 us for a box, 36.77 us for a polygon.
 
 use serde_json::Value;
 use std::process::Command;
@@ -39,6 +40,9 @@ const PUBLISHED: [(&str, f64, f64); 7] = [
     ("tree", 22.002, 0.479 + 0.524 + 1.319),
 ];
 
+/// The share of rays up to which a box pays: 1 - B/I by his times.
+const PAYS: &str = "--walk stored --leaf-bounds 0.274";
+
 /// Box and shape tests in millions.
 fn tests(arguments: &str) -> (f64, f64) {
     let report = stats(arguments);
@@ -48,24 +52,34 @@ fn tests(arguments: &str) -> (f64, f64) {
 
 #[test]
 fn goldsmith_and_salmon_take_as_many_tests_as_published() {
-    println!("{:32}box tests published       | shape tests published  (millions)", "");
+    println!("{:58}box tests published       | shape tests published  (millions)", "");
     let orders = ["shuffled", "shuffled --seed 1", "shuffled --seed 2", "file", "curve"];
     for (scene, boxes, shapes) in PUBLISHED {
         for order in &orders[..if long() { 5 } else { 1 }] {
             let shuffled = order.starts_with("shuffled");
-            let walks = ["ordered", "stored"];
-            for walk in &walks[..if long() && shuffled { 2 } else { 1 }] {
-                let what = format!("spd:{scene} --insertion {order} --walk {walk}");
+            let ways = ["--walk ordered", PAYS, "--walk stored"];
+            for way in &ways[..if !shuffled {
+                1
+            } else if !long() {
+                2
+            } else {
+                3
+            }] {
+                let what = format!("spd:{scene} --insertion {order} {way}");
                 let (found, found_shapes) = tests(&format!("{what} --accel tree --num fixed"));
                 let (ratio, shape_ratio) = (found / boxes, found_shapes / shapes);
                 println!(
-                    "{scene:7} {order:17} {walk:7} {found:7.2} {boxes:7.2} {ratio:5.2} | \
+                    "{scene:7} {order:17} {way:33} {found:7.2} {boxes:7.2} {ratio:5.2} | \
                      {found_shapes:6.2} {shapes:6.2} {shape_ratio:5.2}"
                 );
                 // Fewer tests are no fault; many fewer would be a sign of lost hits.
-                let most = if shuffled && *walk == "ordered" { 1.2 } else { 1.35 };
+                let most = if shuffled && *way != "--walk stored" { 1.2 } else { 1.35 };
                 assert!(ratio < most && ratio > 0.5, "{what}: boxes {ratio:.2}");
-                assert!(shape_ratio < 1.2, "{what}: shapes {shape_ratio:.2}");
+                let (least, most) = if *way == PAYS { (0.45, 1.3) } else { (0.25, 1.2) };
+                assert!(
+                    shape_ratio < most && shape_ratio > least,
+                    "{what}: shapes {shape_ratio:.2}"
+                );
             }
         }
     }

@@ -62,6 +62,10 @@ pub struct Common {
     /// Tree: what bounds shapes and nodes [default: box]
     #[arg(long, value_enum, value_name = "KIND")]
     pub bound: Option<BoundKind>,
+    /// Tree: a shape has a bound of its own only if at most this share of the rays that hit the one
+    /// above hit it, by surfaces: B + pI < I says 1 - B/I [default: 1]
+    #[arg(long, value_name = "P", value_parser = values::share)]
+    pub leaf_bounds: Option<f64>,
     /// Tree: how it comes about [default: gs]
     #[arg(long, value_enum, value_name = "KIND")]
     pub builder: Option<BuilderKind>,
@@ -106,6 +110,7 @@ impl Common {
         let tree = self.builder.is_some()
             || self.insertion.is_some()
             || self.seed.is_some()
+            || self.leaf_bounds.is_some()
             || self.walk.is_some_and(Walk::is_of_tree);
         if grid && octree {
             return Err("--grid and --macro-cells are for grids, --max-objects, --max-level, --store and --walk are for octrees".into());
@@ -125,7 +130,7 @@ impl Common {
             return Err("--bound is only for --accel tree and sorted".into());
         }
         if tree && self.accel != AccelKind::Tree {
-            return Err("--builder, --insertion, --seed and --walk ordered, heap or stored are only for --accel tree".into());
+            return Err("--builder, --insertion, --seed, --leaf-bounds and --walk ordered, heap or stored are only for --accel tree".into());
         }
         if self.seed.is_some() && self.insertion.is_some_and(|it| it != InsertionKind::Shuffled) {
             return Err("--seed is only for --insertion shuffled".into());

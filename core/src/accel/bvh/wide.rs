@@ -165,7 +165,7 @@ impl<const JUMPS: bool> Places<JUMPS> {
         Self { place: 0, rest: bits }
     }
 
-    /// If there are two, and none is looked for.
+    /// Both, if there are two and places are jumped to.
     #[inline(always)]
     fn two(&self) -> Option<[usize; 2]> {
         let ends = || [self.rest.trailing_zeros() as usize, self.rest.ilog2() as usize];
