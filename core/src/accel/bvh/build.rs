@@ -13,7 +13,7 @@
 use super::node::{Node, WIDTH, pack};
 use super::size::{footprint, least_below, levels_below, most_below, possible_nodes};
 use super::split::{Bins, Cut, best_cut};
-use super::units::{Bounds, Units};
+use super::units::{Bounds, Sides, Units};
 use super::{Bvh, LEVELS};
 use crate::accel::{BuildError, Id};
 use crate::memory::Arena;
@@ -66,7 +66,7 @@ impl Group {
         let bytes = |n: usize| (n as u64).to_le_bytes();
         let corner = |[x, y, z]: [u16; 3]| bytemuck::cast([x, y, z, 0]);
         let Self { first, count, nodes } = self;
-        let (lo, hi, none) = (corner(bounds.lo), corner(bounds.hi), [0; WIDTH]);
+        let ([lo, hi], none) = (bounds.corners().map(corner), [0; WIDTH]);
         [bytes(first), bytes(count), bytes(nodes), lo, hi, none, none, none]
     }
 
@@ -74,11 +74,11 @@ impl Group {
         let [first, count, nodes, lo, hi, ..] = *node;
         let [first, count, nodes] =
             [first, count, nodes].map(|row| u64::from_le_bytes(row) as usize);
-        let [lo, hi] = [lo, hi].map(|row| {
+        let corners = [lo, hi].map(|row| {
             let [x, y, z, _]: [u16; 4] = bytemuck::cast(row);
             [x, y, z]
         });
-        (Self { first, count, nodes }, Bounds { lo, hi })
+        (Self { first, count, nodes }, Bounds::between(corners))
     }
 
     fn range(&self) -> Range<usize> {
@@ -96,7 +96,7 @@ type Groups = Vec<(Group, Bounds), WIDTH>;
 /// Boxes of shapes in the order of the list from a place on, or none.
 struct Boxes<'f> {
     first: usize,
-    kept: &'f mut [[[u16; 3]; 2]],
+    kept: &'f mut [Sides],
 }
 
 struct Builder<'b, 's, R: Real, S, I> {
@@ -179,7 +179,7 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
         let room = bytemuck::pod_align_to_mut(free.as_flattened_mut().as_flattened_mut()).1;
         let kept = room.get_mut(..node.count).unwrap_or_default();
         for (kept, id) in kept.iter_mut().zip(self.ids.get(node.range()).unwrap_or_default()) {
-            *kept = self.bounds(*id).corners();
+            *kept = self.bounds(*id).sides;
         }
         Boxes { first: node.first, kept }
     }
@@ -269,10 +269,11 @@ impl<R: Real, S: Shapes<R>, I: Id> Builder<'_, '_, R, S, I> {
     }
 
     /// The box of the shape at a place of the list.
-    #[inline(never)]
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg_attr(not(target_pointer_width = "32"), inline)]
     fn bounds_at(&self, at: usize, boxes: &Boxes<'_>) -> Bounds {
         match boxes.kept.get(at - boxes.first) {
-            Some(corners) => Bounds::between(*corners),
+            Some(sides) => Bounds { sides: *sides },
             None => self.ids.get(at).map_or(Bounds::EMPTY, |id| self.bounds(*id)),
         }
     }

@@ -30,10 +30,11 @@ pub(super) type Node = [[u8; WIDTH]; ROWS];
 /// their ids end.
 pub(super) fn pack(children: [Bounds; WIDTH], leaves: u8, ends: [u8; WIDTH]) -> Node {
     let whole = children.iter().fold(Bounds::EMPTY, |all, child| all.union(*child));
-    let ([x, y, z], [hx, hy, hz]) = (whole.lo, whole.hi);
+    let [[x, y, z], [hx, hy, hz]] = whole.corners();
     let [cx, cy, cz] = [(x, hx), (y, hy), (z, hz)].map(|(lo, hi)| Scale::of(lo, hi));
     let ([x0, x1], [y0, y1], [z0, z1]) = (x.to_le_bytes(), y.to_le_bytes(), z.to_le_bytes());
-    let [lo, hi] = [children.map(|child| child.lo), children.map(|child| child.hi)];
+    let corners = children.map(Bounds::corners);
+    let [lo, hi] = [corners.map(|[lo, _]| lo), corners.map(|[_, hi]| hi)];
     [
         lo.map(|[x, _, _]| cx.down(x)),
         lo.map(|[_, y, _]| cy.down(y)),

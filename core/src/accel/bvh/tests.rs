@@ -82,7 +82,7 @@ fn check<R: Real>(scene: &Scene<'_, R, &[Sphere<R>]>, nodes: usize) -> usize {
             assert!(!list.is_empty());
             for id in list {
                 met[usize::from(*id)] += 1;
-                let Bounds { lo, hi } = boxes(id);
+                let [lo, hi] = boxes(id).corners();
                 for (from, to) in &around {
                     for axis in 0..3 {
                         assert!(from[axis] <= u32::from(lo[axis]));

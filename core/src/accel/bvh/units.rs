@@ -7,43 +7,62 @@
 
 use crate::accel::lattice;
 use crate::geom::{Aabb, Ray};
-use crate::num::{Axis, Cells, Progress, Real, Vec3, Vector};
+use crate::num::{Axis, Cells, FOURS, Progress, Real, Vec3, Vector};
 use crate::scene::{Scene, Shapes};
 
 /// Units along the longest axis of a scene: less than 255 times 256, so that 255 steps of a power of
 /// two up to 2^8 are enough for every extent.
 const ALONG: i32 = 65_000;
 
+/// The sides of a box, and what fills them up to what processors compute at a time that can.
+pub(super) type Sides = [u16; if FOURS { 8 } else { 6 }];
+
 /// A closed box in units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Bounds {
-    pub(super) lo: [u16; 3],
-    pub(super) hi: [u16; 3],
+    /// The lower ones, then the upper ones. These with all bits turned where numbers are computed side
+    /// by side: a union is the least of each, then.
+    pub(super) sides: Sides,
 }
 
 impl Bounds {
     /// Contains nothing; a union with it changes nothing.
-    pub(super) const EMPTY: Self = Self { lo: [u16::MAX; 3], hi: [0; 3] };
+    pub(super) const EMPTY: Self = Self::between([[u16::MAX; 3], [0; 3]]);
 
-    pub(super) fn between([lo, hi]: [[u16; 3]; 2]) -> Self {
-        Self { lo, hi }
+    /// Between its least and its greatest corner.
+    #[inline(always)]
+    pub(super) const fn between([lo, hi]: [[u16; 3]; 2]) -> Self {
+        let mut sides = [u16::MAX; size_of::<Sides>() / size_of::<u16>()];
+        [sides[0], sides[1], sides[2]] = lo;
+        let [x, y, z] = hi;
+        [sides[3], sides[4], sides[5]] = [turned(x), turned(y), turned(z)];
+        Self { sides }
     }
 
+    /// Its least and its greatest corner.
+    #[inline(always)]
     pub(super) fn corners(self) -> [[u16; 3]; 2] {
-        [self.lo, self.hi]
+        let [x, y, z, hx, hy, hz, ..] = self.sides;
+        [[x, y, z], [hx, hy, hz].map(turned)]
     }
 
     // Modules of WebAssembly are to be small.
     #[cfg_attr(target_family = "wasm", inline(never))]
-    pub(super) fn union(self, other: Self) -> Self {
-        let ([ax, ay, az], [bx, by, bz]) = (self.lo, other.lo);
-        let ([cx, cy, cz], [dx, dy, dz]) = (self.hi, other.hi);
-        Self { lo: [ax.min(bx), ay.min(by), az.min(bz)], hi: [cx.max(dx), cy.max(dy), cz.max(dz)] }
+    #[cfg_attr(not(target_family = "wasm"), inline)]
+    pub(super) fn union(mut self, other: Self) -> Self {
+        if FOURS {
+            self.sides.iter_mut().zip(other.sides).for_each(|(side, x)| *side = x.min(*side));
+            return self;
+        }
+        let ([[ax, ay, az], [bx, by, bz]], [[cx, cy, cz], [dx, dy, dz]]) =
+            (self.corners(), other.corners());
+        let lo = [ax.min(cx), ay.min(cy), az.min(cz)];
+        Self::between([lo, [bx.max(dx), by.max(dy), bz.max(dz)]])
     }
 
     /// Half the area of its surface; 0 for the empty box.
     pub(super) fn half_area(self) -> u64 {
-        let ([ax, ay, az], [bx, by, bz]) = (self.lo, self.hi);
+        let [[ax, ay, az], [bx, by, bz]] = self.corners();
         let size = |lo: u16, hi: u16| u32::from(hi.saturating_sub(lo));
         let (x, y, z) = (size(ax, bx), size(ay, by), size(az, bz));
         // A product of 16 bits by 16 bits is one instruction.
@@ -52,10 +71,15 @@ impl Bounds {
 
     /// Twice its middle.
     pub(super) fn middle(self) -> [u32; 3] {
-        let ([ax, ay, az], [bx, by, bz]) = (self.lo, self.hi);
+        let [[ax, ay, az], [bx, by, bz]] = self.corners();
         let sum = |lo: u16, hi: u16| u32::from(lo) + u32::from(hi);
         [sum(ax, bx), sum(ay, by), sum(az, bz)]
     }
+}
+
+/// How an upper side is stored, and back.
+const fn turned(side: u16) -> u16 {
+    if FOURS { !side } else { side }
 }
 
 /// The division of the room that a scene takes into units, as long along every axis.
@@ -85,7 +109,7 @@ impl<R: Real> Units<R> {
         // Cutting off is rounding down for all that is not raised to 0. The unit that is added
         // above rounds up.
         let whole = |x: i32| x.clamp(0, ALONG) as u16;
-        Bounds { lo: units(bounds.lo).map(whole), hi: units(bounds.hi).map(|x| whole(x) + 1) }
+        Bounds::between([units(bounds.lo).map(whole), units(bounds.hi).map(|x| whole(x) + 1)])
     }
 
     /// A ray seen along each of the three axes. Three divisions.
