@@ -10,7 +10,6 @@ use crate::scene::{Scene, Shapes};
 use crate::shape::Sphere;
 use node::WIDTH;
 use std::vec::Vec;
-use units::Bounds;
 
 fn spheres<R: Real>(count: usize, place: impl Fn(f64) -> [f64; 3]) -> Vec<Sphere<R>> {
     let sphere = |i| Sphere::new(Vec3::<R>::from_f64(place(i as f64)), R::from_f64(0.2));
