@@ -63,13 +63,14 @@ impl Listing for Overlap {
 /// Shapes that are kept beside a structure, at most.
 pub const MOST_ASIDE: usize = 6;
 
-/// The shapes that are kept beside a structure.
+/// The shapes that are kept beside a structure. They are picked as `u32`, whatever numbers the
+/// structure is stored in: so there is one code for all of them.
 #[derive(Clone, Debug)]
-pub(crate) struct Aside<I> {
+pub(crate) struct Aside<I = u32> {
     ids: Vec<I, MOST_ASIDE>,
 }
 
-impl<I: Id> Aside<I> {
+impl Aside {
     /// Picks them; and the box of all other bounded shapes. Time in proportion to the number of
     /// shapes.
     pub(crate) fn of<R: Real, S: Shapes<R>>(
@@ -85,7 +86,7 @@ impl<I: Id> Aside<I> {
             x * y + y * z + z * x
         };
         // The largest ones, in descending order; of equal ones the first.
-        let mut largest: Vec<(R, I), MOST_ASIDE> = Vec::new();
+        let mut largest: Vec<(R, u32), MOST_ASIDE> = Vec::new();
         for id in 0..shapes.bounded() {
             let size = area(shapes.bounds(id));
             if largest.is_full() && largest.last().is_some_and(|(last, _)| size > *last) {
@@ -93,9 +94,9 @@ impl<I: Id> Aside<I> {
             }
             let place = largest.partition_point(|(other, _)| *other >= size);
             // Refused when it is not among the largest.
-            let _ = largest.insert(place, (size, I::new(id)));
+            let _ = largest.insert(place, (size, u32::new(id)));
         }
-        let is_among = |ids: &[(R, I)], id: usize| ids.iter().any(|(_, i)| i.get() == id);
+        let is_among = |ids: &[(R, u32)], id: usize| ids.iter().any(|(_, i)| i.get() == id);
         let others = (0..shapes.bounded()).filter(|id| !is_among(&largest, *id));
         let mut rest = others.fold(Aabb::empty(), |b: Aabb<R>, id| b.union(shapes.bounds(id)));
 
@@ -117,6 +118,13 @@ impl<I: Id> Aside<I> {
         (Self { ids }, rest)
     }
 
+    /// In the numbers of a structure.
+    pub(crate) fn stored<I: Id>(&self) -> Aside<I> {
+        Aside { ids: self.ids.iter().map(|id| I::new(id.get())).collect() }
+    }
+}
+
+impl<I: Id> Aside<I> {
     /// How many there are.
     pub(crate) fn count(&self) -> usize {
         self.ids.len()

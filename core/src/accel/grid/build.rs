@@ -14,18 +14,15 @@ use crate::scene::{Scene, Shapes};
 /// The extra at the lower end is a little greater than at the upper: an even number of cells would
 /// otherwise put a wall into the middle of the scene, where symmetric scenes like to have faces,
 /// and each of these would be listed on both sides.
-pub(super) fn room<R: Real, S: Shapes<R>, I: Id>(
-    scene: &Scene<'_, R, S>,
-    huge: Huge,
-) -> (Aabb<R>, Aside<I>) {
+pub(super) fn room<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, huge: Huge) -> (Aabb<R>, Aside) {
     let (aside, bounds) = Aside::of(scene, huge);
     (lattice::root(bounds, scene.pad(), 33, 31), aside)
 }
 
 /// The shapes that a grid lists.
-pub(super) fn listed<R: Real, S: Shapes<R>, I: Id>(
+pub(super) fn listed<R: Real, S: Shapes<R>>(
     scene: &Scene<'_, R, S>,
-    aside: &Aside<I>,
+    aside: &Aside,
 ) -> impl DoubleEndedIterator<Item = usize> {
     (0..scene.shapes().bounded()).filter(|id| !aside.contains(*id))
 }
@@ -37,7 +34,7 @@ pub fn size<R: Real, S: Shapes<R>, L: Listing>(
     settings: impl Into<Settings<L>>,
 ) -> Size {
     let Settings { resolution, huge, overlap, shared, .. } = settings.into();
-    let (root, aside) = room::<_, _, u32>(scene, huge);
+    let (root, aside) = room(scene, huge);
     let size = size_of_room(scene, &Lattice::new(root, resolution, scene.pad()), &aside, overlap);
     if shared { size.shared() } else { size }
 }
@@ -45,7 +42,7 @@ pub fn size<R: Real, S: Shapes<R>, L: Listing>(
 pub(super) fn size_of_room<R: Real, S: Shapes<R>, L: Listing>(
     scene: &Scene<'_, R, S>,
     lattice: &Lattice<R>,
-    aside: &Aside<impl Id>,
+    aside: &Aside,
     overlap: L,
 ) -> Size {
     let product = |n: [i32; 3]| n.iter().fold(1_usize, |p, n| p.saturating_mul(*n as usize));
@@ -71,7 +68,7 @@ pub fn resolution_for<R: Real, S: Shapes<R>>(
     huge: Huge,
     cells: usize,
 ) -> [u32; 3] {
-    let size = room::<_, _, u32>(scene, huge).0.size();
+    let size = room(scene, huge).0.size();
     let longest = size.max_abs();
     let counts = |l: i32| {
         let per_axis = |s: R| s.proportion(longest, l).max(1) as u32;
@@ -96,7 +93,7 @@ pub fn resolution_for<R: Real, S: Shapes<R>>(
 ///   more than two and a half of the 64 parts. Boxes in boxes tell them apart badly, and small cells,
 ///   that only a surface passes through, tell them well.
 pub fn suits<R: Real, S: Shapes<R>>(scene: &Scene<'_, R, S>, huge: Huge) -> Option<usize> {
-    let (root, aside) = room::<_, _, u32>(scene, huge);
+    let (root, aside) = room(scene, huge);
     let lattice = Lattice::new(root, [4; 3], scene.pad());
     let (mut longest, mut touched, mut parts) = (R::ZERO, 0_u64, 0);
     // Lengths are looked at twice, the second time against the longest.
@@ -144,7 +141,7 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         let Settings { resolution, huge, overlap, macro_cells, .. } = settings.into();
-        let (root, aside) = room::<_, _, I>(scene, huge);
+        let (root, aside) = room(scene, huge);
         let lattice = Lattice::new(root, resolution, scene.pad());
         let shapes = scene.shapes().bounded();
         BuildError::unless_fits::<I>("shapes", shapes.saturating_sub(1))?;
@@ -182,7 +179,7 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O> {
         if macro_cells {
             distance::mark::<O, false>(slots, lattice.count());
         }
-        Ok(Self { lattice, slots, references, aside })
+        Ok(Self { lattice, slots, references, aside: aside.stored() })
     }
 }
 

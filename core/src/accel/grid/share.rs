@@ -39,7 +39,7 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O, true> {
         arena: &mut Arena<'m>,
     ) -> Result<Self, BuildError> {
         let Settings { resolution, huge, overlap, macro_cells, .. } = settings.into();
-        let (root, aside) = room::<_, _, I>(scene, huge);
+        let (root, aside) = room(scene, huge);
         let lattice = Lattice::new(root, resolution, scene.pad());
         // The length of a list has to fit as well as the ids.
         BuildError::unless_fits::<I>("shapes", scene.shapes().bounded())?;
@@ -104,7 +104,7 @@ impl<'m, R: Real, I: Id, O: Id> Grid<'m, R, I, O, true> {
             distance::mark::<O, true>(slots, lattice.count());
         }
         let references: &mut [I] = arena.keep("grid references", kept)?;
-        Ok(Self { lattice, slots, references, aside })
+        Ok(Self { lattice, slots, references, aside: aside.stored() })
     }
 }
 

@@ -125,7 +125,7 @@ impl<'m, R: Real> AnyOctree<'m, R> {
     /// The fewest bytes that [`AnyOctree::build`] takes: those of a single cell. Links no code that
     /// divides cells.
     pub fn least<S: Shapes<R>>(scene: &Scene<'_, R, S>, settings: Settings) -> Footprint {
-        let (aside, _) = Aside::<u32>::of(scene, settings.growth.huge);
+        let (aside, _) = Aside::of(scene, settings.growth.huge);
         let listed = scene.shapes().bounded() - aside.count();
         // A list begins with its length.
         let entries = listed.saturating_add(usize::from(listed > 0));

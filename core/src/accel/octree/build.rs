@@ -25,7 +25,7 @@ use crate::scene::{Scene, Shapes};
 pub(super) fn room<R: Real, S: Shapes<R>, I: Id, L>(
     scene: &Scene<'_, R, S>,
     Growth { limits, huge, .. }: Growth<L>,
-) -> Result<(Lattice<R>, Aside<I>), BuildError> {
+) -> Result<(Lattice<R>, Aside), BuildError> {
     let deepest = limits.max_level;
     if deepest > DEEPEST {
         return Err(BuildError::TooDeep { level: deepest, limit: DEEPEST });
@@ -141,7 +141,7 @@ impl<'m, R: Real, I: Id, C: Storage<'m>> Octree<'m, R, I, C> {
         let cells = C::keep(root.word::<C::Word>(), families, blocks, arena)?;
         let lists: &mut [I] = arena.keep("octree lists", entries)?;
         let deepest = limits.max_level;
-        Ok(Self { lattice, deepest, max_level, stopped_by, cells, lists, aside })
+        Ok(Self { lattice, deepest, max_level, stopped_by, cells, lists, aside: aside.stored() })
     }
 }
 
@@ -168,7 +168,7 @@ impl<'m, R: Real, S: Shapes<R>, I: Id, C: Storage<'m>, L: Listing>
     Growing<'_, '_, 'm, R, S, I, C, L>
 {
     /// The root: one cell that lists every shape.
-    fn plant(&mut self, shapes: usize, aside: &Aside<I>) {
+    fn plant(&mut self, shapes: usize, aside: &Aside) {
         if shapes > 0 && self.ends.grow(0, shapes + 1, 0) {
             let (_, lists) = self.ends.both();
             if let Some((length, ids)) = lists.split_first_mut() {
