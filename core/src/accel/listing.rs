@@ -120,7 +120,12 @@ impl Aside {
 
     /// In the numbers of a structure.
     pub(crate) fn stored<I: Id>(&self) -> Aside<I> {
-        Aside { ids: self.ids.iter().map(|id| I::new(id.get())).collect() }
+        let mut ids = Vec::new();
+        for id in &self.ids {
+            // Never refused: there is room for as many. `collect` could panic.
+            let _ = ids.push(I::new(id.get()));
+        }
+        Aside { ids }
     }
 }
 
